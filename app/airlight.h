@@ -1,0 +1,80 @@
+// The public interface of airlight: load or build a scene, render a frame, get its images.
+//
+//   airlight::Renderer renderer({.backend = "cpu"});
+//   airlight::Frame frame = renderer.render(airlight::load_scene("fog.json"), {});
+//   airlight::write_image("fog.exr", frame.image("beauty"), {});
+//
+// Nothing here prints, exits or keeps global state: renderers in different threads are independent. Errors are thrown
+// (common/error.h) and leave every object usable. The caller's floating-point mode and GL context are restored.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/error.h"
+#include "common/image.h"
+#include "common/progress.h"
+#include "common/scene/image_file.h"
+#include "common/scene/load.h"
+#include "common/scene/scene.h"
+#include "common/stats.h"
+
+namespace airlight {
+
+struct RendererOptions {
+  std::string backend = "cpu";      // cpu | gl
+  std::string simd = "auto";        // auto | scalar | avx2 | avx512 | neon; cpu only
+  int threads = 0;                  // 0: as many as the machine has
+  std::string gl_context = "auto";  // auto | osmesa | egl; gl only. auto: EGL on hardware where there is some, else OSMesa
+  int gl_device = 0;                // which EGL device
+};
+
+struct RenderSettings {
+  std::string technique = "auto";                             // auto: what the scene names, else the first that supports it
+  std::vector<std::pair<std::string, std::string>> knobs;     // name, value; win over the scene's
+  std::optional<Extent> resolution;                           // instead of the camera's
+  int supersample = 1;                                        // 1..16: n x n samples a pixel, averaged
+  std::vector<std::string> images{"beauty"};                  // what to make: see image_names() in common/techniques/technique.h
+};
+
+struct NamedImage {
+  std::string name;
+  HostImage image;
+};
+
+struct Frame {
+  std::vector<NamedImage> images;                          // in the order asked for
+  Stats stats;
+  std::string technique;                                   // what ran
+  std::vector<std::pair<std::string, std::string>> knobs;  // every knob with its value
+  std::string device;                                      // Backend::describe(), or the reference's line
+  const HostImage& image(std::string_view name) const;     // throws std::out_of_range
+};
+
+class Renderer {
+ public:
+  // Throws InputError for an unknown name, MachineError where the machine lacks what was asked for. Never falls back.
+  explicit Renderer(const RendererOptions& = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  // A second frame re-runs only the steps whose inputs changed.
+  Frame render(const Scene&, const RenderSettings&, Progress&);
+  Frame render(const Scene&, const RenderSettings&);
+
+  std::string describe() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// What would run, what is skipped and why; many lines, ends with a newline.
+std::string explain(const Scene&, const RenderSettings&);
+
+}  // namespace airlight

@@ -1,0 +1,26 @@
+// All algorithms. A backend visits the variant, so one that forgets an algorithm does not compile.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+#include "common/algorithms/compose.h"
+#include "common/algorithms/homogeneous_airlight.h"
+#include "common/algorithms/surface_shading.h"
+#include "common/algorithms/surface_visibility.h"
+#include "common/algorithms/view_transmittance.h"
+
+namespace airlight {
+
+using Algorithm = std::variant<SurfaceVisibility, ViewTransmittance, SurfaceShading, HomogeneousAirlight, Compose>;
+
+struct Step {
+  Algorithm what;
+  std::string_view why;  // one phrase for --explain
+};
+
+std::string_view name_of(const Algorithm&);
+Domain domain_of(const Algorithm&);
+
+}  // namespace airlight

@@ -1,0 +1,2 @@
+FORMULA real exp_(real x) { return x; }
+FORMULA real log_(real x) { return x; }

@@ -1,0 +1,54 @@
+// The single-precision build of the formulas, namespace airlight::f32 (see README.md in this folder).
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace airlight::f32 {
+
+// A float that literals of type double may enter but that never widens by itself.
+struct Float {
+  float v;
+  Float() : v(0) {}
+  Float(double x) : v(static_cast<float>(x)) {}
+  Float(float x) : v(x) {}
+  Float& operator+=(Float b) { v += b.v; return *this; }
+  Float& operator-=(Float b) { v -= b.v; return *this; }
+  Float& operator*=(Float b) { v *= b.v; return *this; }
+};
+inline Float operator+(Float a, Float b) { return a.v + b.v; }
+inline Float operator-(Float a, Float b) { return a.v - b.v; }
+inline Float operator*(Float a, Float b) { return a.v * b.v; }
+inline Float operator/(Float a, Float b) { return a.v / b.v; }
+inline Float operator-(Float a) { return -a.v; }
+inline bool operator<(Float a, Float b) { return a.v < b.v; }
+inline bool operator<=(Float a, Float b) { return a.v <= b.v; }
+inline bool operator>(Float a, Float b) { return a.v > b.v; }
+inline bool operator>=(Float a, Float b) { return a.v >= b.v; }
+
+using real = Float;
+using mask = bool;
+using table = const float*;
+#define FORMULA inline
+#define OUT(type) type&
+
+inline real select(mask m, real a, real b) { return m ? a : b; }
+inline real sqrt(real x) { return std::sqrt(x.v); }
+inline real abs(real x) { return std::fabs(x.v); }
+inline real min(real a, real b) { return a.v < b.v ? a : b; }
+inline real max(real a, real b) { return a.v > b.v ? a : b; }
+inline real floor(real x) { return std::floor(x.v); }
+inline real fma(real a, real b, real c) { return std::fma(a.v, b.v, c.v); }
+inline real round_even(real x) { return std::nearbyint(x.v); }
+inline real exp2_int(real n) { return std::bit_cast<float>((static_cast<std::int32_t>(n.v) + 127) << 23); }
+inline real exponent_of(real x) { return static_cast<float>((std::bit_cast<std::int32_t>(x.v) >> 23) - 127); }
+inline real mantissa_of(real x) { return std::bit_cast<float>((std::bit_cast<std::int32_t>(x.v) & 0x007fffff) | 0x3f800000); }
+inline real fetch(table t, real i) { return t[static_cast<std::int32_t>(i.v)]; }
+
+#include "common/formulas/elementary.h"
+#include "common/formulas/formulas.h"
+
+#undef FORMULA
+#undef OUT
+}  // namespace airlight::f32

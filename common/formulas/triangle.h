@@ -1,0 +1,25 @@
+// The point where a ray from the camera meets the plane of a triangle.
+
+// Ray from the origin along the unit vector d; triangle a b c relative to the same origin. Gives the distance along the
+// ray and the weights of b and c (that of a is what is left of 1). A rasteriser rounds vertices to 1/256 pixel, so a covered
+// pixel's ray may pass just outside: weights are held inside the triangle, and the distance at most that of the farthest vertex,
+// which bounds it where the triangle is seen edge-on.
+FORMULA void ray_triangle(real dx, real dy, real dz, real ax, real ay, real az, real bx, real by, real bz,
+                          real cx, real cy, real cz, OUT(real) distance, OUT(real) weight_b, OUT(real) weight_c) {
+  real ux = bx - ax; real uy = by - ay; real uz = bz - az;
+  real vx = cx - ax; real vy = cy - ay; real vz = cz - az;
+  real nx = uy * vz - uz * vy;
+  real ny = uz * vx - ux * vz;
+  real nz = ux * vy - uy * vx;
+  real cosine = abs(nx * dx + ny * dy + nz * dz);
+  real plane = abs(nx * ax + ny * ay + nz * az);
+  real far2 = max(max(ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz), cx * cx + cy * cy + cz * cz);
+  distance = min(plane / max(cosine, 1e-37), sqrt(far2));
+  // Weights from the point itself, by projection on the triangle's plane: (p - a) x v . n / n.n and u x (p - a) . n / n.n.
+  real px = dx * distance - ax; real py = dy * distance - ay; real pz = dz * distance - az;
+  real n2 = max(nx * nx + ny * ny + nz * nz, 1e-37);
+  real wb = ((py * vz - pz * vy) * nx + (pz * vx - px * vz) * ny + (px * vy - py * vx) * nz) / n2;
+  real wc = ((uy * pz - uz * py) * nx + (uz * px - ux * pz) * ny + (ux * py - uy * px) * nz) / n2;
+  weight_b = min(max(wb, 0.0), 1.0);
+  weight_c = min(max(wc, 0.0), 1.0 - weight_b);
+}

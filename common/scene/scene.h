@@ -1,0 +1,88 @@
+// The scene as a value: what a scene file says, checked, with meshes loaded. Units: metres, W, sr; right-handed, +Y up; linear
+// Rec.709. It holds no file handle, no backend object, and nothing changes it after loading; copies share their meshes.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+struct Camera {
+  glm::dvec3 position{0, 0, 0};
+  glm::dvec3 look_at{0, 0, -1};
+  glm::dvec3 up{0, 1, 0};
+  double vertical_fov = 45;  // [degree] 0.01..179
+  Extent resolution{800, 600};
+};
+
+// extinction * exp(-|x - center|^2 / radius^2)
+struct Gaussian {
+  glm::dvec3 center{0, 0, 0};
+  double radius = 1;      // [m] > 0
+  double extinction = 1;  // [1/m] >= 0
+  glm::dvec3 albedo{1, 1, 1};
+  glm::dvec3 emission{0, 0, 0};  // [W/m^3/sr]
+};
+
+struct Medium {
+  Phase phase;
+  glm::dvec3 albedo{1, 1, 1};    // each 0..1
+  glm::dvec3 ambient{0, 0, 0};   // [W/m^2/sr] constant source radiance L_a
+  glm::dvec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
+  double extinction = 0;         // [1/m] of the homogeneous part
+  std::vector<Gaussian> gaussians;
+
+  bool empty() const { return extinction == 0 && gaussians.empty(); }
+};
+
+enum class LightType { point, directional };
+
+struct LightSource {
+  LightType type = LightType::point;
+  std::string name;                // unique when given; else empty
+  glm::dvec3 position{0, 0, 0};    // [m], point
+  glm::dvec3 direction{0, -1, 0};  // unit, the way that light travels; directional
+  glm::dvec3 power{1, 1, 1};       // radiant intensity [W/sr] of a point light, irradiance [W/m^2] of a directional one
+  double radius = 1e-3;            // [m] > 0: 1/r^2 is held below it
+};
+
+// Vertices in the mesh's own frame. Normals are unit length, one a vertex (loading generates what a file lacks).
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::uvec3> triangles;
+};
+
+struct Surface {
+  std::shared_ptr<const Mesh> mesh;
+  glm::dmat4 transform{1.0};  // mesh to world, affine, invertible
+  bool casts_shadow = true;
+  Material material;
+};
+
+struct Scene {
+  Camera camera;
+  double sky_distance = std::numeric_limits<double>::infinity();  // [m] length of view rays that hit nothing
+  Medium medium;
+  std::vector<LightSource> lights;
+  std::vector<Surface> surfaces;
+  glm::dvec3 background{0, 0, 0};  // [W/m^2/sr]
+
+  // What the file asks for; the command line wins.
+  std::string technique;                                      // empty: not said
+  std::vector<std::pair<std::string, std::string>> settings;  // knob, value
+
+  // SHA-256 (hex) of the canonical content and of the bytes of every named file; no paths, no formatting. Empty for a scene built in code.
+  std::string hash;
+};
+
+}  // namespace airlight

@@ -1,0 +1,22 @@
+// What a frame cost, counted where it happens and printed by --stats.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace airlight {
+
+struct StepStats {
+  std::string name;
+  double seconds = 0;        // thread time summed over the workers on the CPU, wall time (glFinish) on GL
+  std::uint64_t items = 0;   // pixels or triangles processed
+  bool reused = false;       // its kept outputs were up to date
+};
+
+struct Stats {
+  std::vector<StepStats> steps;
+  double seconds = 0;  // wall time of run()
+};
+
+}  // namespace airlight

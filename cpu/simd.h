@@ -1,0 +1,102 @@
+// The SIMD build of the formulas, namespace airlight::HWY_NAMESPACE: one lane a work item, so that every target gives the same bits.
+// Included after hwy/foreach_target.h by each kernel file, anew for every target (so: a guard that toggles, not #pragma once).
+#if defined(AIRLIGHT_CPU_SIMD_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AIRLIGHT_CPU_SIMD_H
+#undef AIRLIGHT_CPU_SIMD_H
+#else
+#define AIRLIGHT_CPU_SIMD_H
+#endif
+
+#include <cmath>
+#include <cstdint>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, 16>;
+using Ints = hn::RebindToSigned<Floats>;
+using Vec = hn::Vec<Floats>;
+using IntVec = hn::Vec<Ints>;
+constexpr int lanes = static_cast<int>(HWY_MIN(16, HWY_MAX_BYTES / 4));
+
+struct Mask {
+  hn::Mask<Floats> m;
+};
+HWY_INLINE Mask operator&&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+HWY_INLINE bool any(Mask a) { return !hn::AllFalse(Floats(), a.m); }
+HWY_INLINE bool all(Mask a) { return hn::AllTrue(Floats(), a.m); }
+
+struct Real {
+  Vec v;
+  HWY_INLINE Real() : v(hn::Zero(Floats())) {}
+  HWY_INLINE Real(Vec x) : v(x) {}
+  HWY_INLINE Real(double x) : v(hn::Set(Floats(), static_cast<float>(x))) {}
+  HWY_INLINE Real(float x) : v(hn::Set(Floats(), x)) {}
+  HWY_INLINE Real& operator+=(Real b);
+  HWY_INLINE Real& operator-=(Real b);
+  HWY_INLINE Real& operator*=(Real b);
+};
+HWY_INLINE Real operator+(Real a, Real b) { return hn::Add(a.v, b.v); }
+HWY_INLINE Real operator-(Real a, Real b) { return hn::Sub(a.v, b.v); }
+HWY_INLINE Real operator*(Real a, Real b) { return hn::Mul(a.v, b.v); }
+HWY_INLINE Real operator/(Real a, Real b) { return hn::Div(a.v, b.v); }
+HWY_INLINE Real operator-(Real a) { return hn::Neg(a.v); }
+HWY_INLINE Real& Real::operator+=(Real b) { return *this = *this + b; }
+HWY_INLINE Real& Real::operator-=(Real b) { return *this = *this - b; }
+HWY_INLINE Real& Real::operator*=(Real b) { return *this = *this * b; }
+HWY_INLINE Mask operator<(Real a, Real b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator<=(Real a, Real b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Mask operator>(Real a, Real b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator>=(Real a, Real b) { return {hn::Ge(a.v, b.v)}; }
+
+HWY_INLINE Real load(const float* p) { return hn::LoadU(Floats(), p); }
+HWY_INLINE void store(Real a, float* p) { hn::StoreU(a.v, Floats(), p); }
+HWY_INLINE Real first_lanes() { return hn::ConvertTo(Floats(), hn::Iota(Ints(), 0)); }  // 0, 1, 2 ...
+
+#define FORMULA HWY_INLINE
+#define OUT(type) type&
+
+using real = Real;
+using mask = Mask;
+using table = const float*;
+
+HWY_INLINE real select(mask m, real a, real b) { return hn::IfThenElse(m.m, a.v, b.v); }
+HWY_INLINE real sqrt(real x) { return hn::Sqrt(x.v); }
+HWY_INLINE real abs(real x) { return hn::Abs(x.v); }
+// Written out: Highway's Min and Max differ between targets in the sign of zero.
+HWY_INLINE real min(real a, real b) { return select(a < b, a, b); }
+HWY_INLINE real max(real a, real b) { return select(a > b, a, b); }
+HWY_INLINE real floor(real x) { return hn::Floor(x.v); }
+HWY_INLINE real fma(real a, real b, real c) {
+#if HWY_TARGET == HWY_SCALAR  // Highway's own is not fused there
+  return hn::Set(Floats(), std::fma(hn::GetLane(a.v), hn::GetLane(b.v), hn::GetLane(c.v)));
+#else
+  return hn::MulAdd(a.v, b.v, c.v);
+#endif
+}
+HWY_INLINE real round_even(real x) { return hn::Round(x.v); }
+HWY_INLINE IntVec to_int(real x) { return hn::ConvertTo(Ints(), x.v); }
+HWY_INLINE real exp2_int(real n) {
+  return hn::BitCast(Floats(), hn::ShiftLeft<23>(hn::Add(to_int(n), hn::Set(Ints(), 127))));
+}
+HWY_INLINE real exponent_of(real x) {
+  return hn::ConvertTo(Floats(), hn::Sub(hn::ShiftRight<23>(hn::BitCast(Ints(), x.v)), hn::Set(Ints(), 127)));
+}
+HWY_INLINE real mantissa_of(real x) {
+  const Ints di;
+  return hn::BitCast(Floats(), hn::Or(hn::And(hn::BitCast(di, x.v), hn::Set(di, 0x007fffff)), hn::Set(di, 0x3f800000)));
+}
+HWY_INLINE real fetch(table t, real i) { return hn::GatherIndex(Floats(), t, to_int(i)); }
+
+#include "common/formulas/elementary.h"
+#include "common/formulas/formulas.h"
+
+#undef FORMULA
+#undef OUT
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

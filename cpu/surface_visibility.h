@@ -1,0 +1,36 @@
+// Tiled triangle rasteriser: all triangles are set up and binned once, then each tile can be made on its own, on any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "common/algorithms/surface_visibility.h"
+#include "cpu/parallel.h"
+#include "cpu/targets.h"
+#include "cpu/tile.h"
+
+namespace airlight {
+
+class Rasteriser {
+ public:
+  Rasteriser();
+  ~Rasteriser();
+
+  // `positions`, `normals`: float[3] a vertex; `triangles`: uint32[4] a triangle. They must stay valid until the last run_tile().
+  void prepare(const SurfaceVisibility&, std::span<const float> positions, std::span<const float> normals,
+               std::span<const std::uint32_t> triangles, Simd, Workers&);
+
+  // Whether any triangle may touch the tile.
+  bool touches(int tile) const;
+
+  // Each pointer: tile_pixels floats. Safe from many threads at once.
+  void run_tile(Tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace airlight

@@ -1,0 +1,25 @@
+// The screen is cut into square tiles, and every image is held tile by tile: a tile's pixels lie together (row by row, 64 x 64
+// also at the border, where the pixels outside the image are computed and never read), one plane a channel.
+#pragma once
+
+#include "common/image.h"
+
+namespace airlight {
+
+constexpr int tile_side = 64;
+constexpr int tile_pixels = tile_side * tile_side;  // 4096: what stays in the first and second cache
+
+struct Tile {
+  int index = 0;
+  int x = 0, y = 0;  // pixel of its upper left corner
+};
+
+struct Tiling {
+  Extent extent;
+  int columns() const { return (extent.width + tile_side - 1) / tile_side; }
+  int rows() const { return (extent.height + tile_side - 1) / tile_side; }
+  int count() const { return columns() * rows(); }
+  Tile tile(int index) const { return {index, index % columns() * tile_side, index / columns() * tile_side}; }
+};
+
+}  // namespace airlight
