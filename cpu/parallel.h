@@ -2,8 +2,11 @@
 // defined (thread sanitizer, machines without oneTBB).
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <thread>
+#include <vector>
 
 namespace airlight {
 
@@ -27,8 +30,14 @@ class Workers {
 
  private:
   struct Pool;
+  struct alignas(64) Ran {
+    std::atomic<std::thread::id> id;  // of the thread that worked under this number in the last each()
+  };
+  void loop(int n, const std::function<void(int i, int worker)>& body);
+
   int threads_;
   std::unique_ptr<Pool> pool_;
+  std::vector<Ran> ran_;
 };
 
 }  // namespace airlight

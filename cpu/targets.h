@@ -22,6 +22,9 @@ enum class Simd { scalar, avx2, avx512, neon };
 std::vector<Simd> available_simd();
 std::string_view name_of(Simd);
 
+// The target of the code that a call for `asked` ends in, as told by that code.
+Simd target_that_runs(Simd asked);
+
 // Entry of a HWY_EXPORT table (HWY_DISPATCH_TABLE(f)) for an available target.
 template <class Function, std::size_t n>
 Function* entry(Function* const (&table)[n], Simd simd) {

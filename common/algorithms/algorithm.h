@@ -1,9 +1,9 @@
 // All algorithms. A backend visits the variant, so one that forgets an algorithm does not compile.
 #pragma once
 
-#include <cstdint>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "common/algorithms/compose.h"
 #include "common/algorithms/homogeneous_airlight.h"
@@ -22,5 +22,8 @@ struct Step {
 
 std::string_view name_of(const Algorithm&);
 Domain domain_of(const Algorithm&);
+// Those that are present, in order of the fields.
+std::vector<Handle> inputs_of(const Algorithm&);
+std::vector<Image> outputs_of(const Algorithm&);
 
 }  // namespace airlight

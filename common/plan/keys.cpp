@@ -1,0 +1,63 @@
+#include "common/plan/keys.h"
+
+#include <map>
+#include <set>
+
+#include "common/plan/hash.h"
+
+namespace airlight {
+
+std::vector<std::uint64_t> step_keys(std::span<const Step> steps,
+                                     const std::function<std::uint64_t(Handle)>& key_of_upload) {
+  std::map<Handle, std::uint64_t> written;
+  std::vector<std::uint64_t> keys;
+  for (const Step& step : steps) {
+    Hash hash;
+    hash.add(name_of(step.what));
+    std::visit(
+        [&](const auto& a) {
+          a.fields(a, [&](const Field& field, const auto& value) {
+            hash.add(field.name);
+            if constexpr (std::is_base_of_v<Handle, std::remove_cvref_t<decltype(value)>>) {
+              hash.add(static_cast<bool>(value));
+              if (field.role != Role::input || !value) return;
+              const auto found = written.find(value);
+              hash.add(found != written.end() ? found->second : key_of_upload(value));
+            } else {
+              hash.add(value);
+            }
+          });
+        },
+        step.what);
+    keys.push_back(hash.value());
+    for (const Image& image : outputs_of(step.what)) written[image] = output_key(keys.back(), image);
+  }
+  return keys;
+}
+
+std::uint64_t output_key(std::uint64_t step_key, const Image& output) {
+  Hash hash;
+  hash.add(step_key);
+  hash.add(output.id);
+  hash.add(output.extent);
+  hash.add(output.layers);
+  return hash.value();
+}
+
+std::vector<bool> steps_to_run(std::span<const Step> steps, std::span<const std::uint64_t> keys,
+                               const std::function<bool(const Image&, std::uint64_t key)>& held) {
+  std::vector<bool> run(steps.size(), false);
+  std::set<Handle> needed;  // by a later step that runs
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    for (const Image& image : outputs_of(steps[i].what)) {
+      const bool wanted = image.keep || needed.contains(image);
+      if (wanted && !(image.keep && held(image, output_key(keys[i], image)))) run[i] = true;
+      needed.erase(image);
+    }
+    if (!run[i]) continue;
+    for (const Handle input : inputs_of(steps[i].what)) needed.insert(input);
+  }
+  return run;
+}
+
+}  // namespace airlight
