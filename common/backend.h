@@ -19,8 +19,11 @@ class Backend {
   // One line, for example "cpu, AVX-512, 2 threads" or "gl, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5, OSMesa".
   virtual std::string describe() const = 0;
 
-  // Gives a buffer its content. `key` names the content: the same handle with the same key is not copied again.
+  // Gives a buffer its content; `key` names the content (not 0).
   virtual void upload(Buffer, std::span<const std::byte>, std::uint64_t key) = 0;
+
+  // Whether the buffer's content is held under this key, so that it need not be made or uploaded again.
+  virtual bool holds(Buffer, std::uint64_t key) const = 0;
 
   // Gives an image its content, as an input of a step (parity cases do this).
   virtual void upload(const Image&, std::span<const float>, std::uint64_t key) = 0;

@@ -2,6 +2,11 @@
 // also at the border, where the pixels outside the image are computed and never read), one plane a channel.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "common/image.h"
 
 namespace airlight {
@@ -20,6 +25,21 @@ struct Tiling {
   int rows() const { return (extent.height + tile_side - 1) / tile_side; }
   int count() const { return columns() * rows(); }
   Tile tile(int index) const { return {index, index % columns() * tile_side, index / columns() * tile_side}; }
+};
+
+// What a kernel sees of one tile: its place, and its pixels of each image.
+struct TileView {
+  Tile tile;
+  std::vector<float*> images;                  // by handle id; each [layer][channel][tile_pixels]
+  std::vector<std::span<const std::byte>> buffers;  // by handle id
+
+  float* plane(const Image& image, int channel = 0, int layer = 0) const {
+    if (!image) return nullptr;
+    return images[image.id] + static_cast<std::ptrdiff_t>(layer * channels(image.format) + channel) * tile_pixels;
+  }
+  const float* floats(const Buffer& buffer) const {
+    return buffer ? reinterpret_cast<const float*>(buffers[buffer.id].data()) : nullptr;
+  }
 };
 
 }  // namespace airlight

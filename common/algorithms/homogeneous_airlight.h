@@ -9,7 +9,7 @@ namespace airlight {
 
 // Single scattering of unshadowed lights along each pixel's ray in the homogeneous medium, with its ambient and emitted light.
 struct HomogeneousAirlight {
-  Image distance, transmittance;
+  Image distance;            // r32f [m], 1e30 on a miss
   Buffer tables;  // airlight tables of the phase function (common/plan/airlight_tables.h), float
   std::vector<Light> lights;
   View view;
@@ -28,7 +28,6 @@ struct HomogeneousAirlight {
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& v) {
     v(in("distance", "m"), s.distance);
-    v(in("transmittance"), s.transmittance);
     v(in("tables"), s.tables);
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);

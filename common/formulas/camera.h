@@ -9,3 +9,22 @@ FORMULA real image_plane_x(real i, real offset, real width, real height, real ta
 FORMULA real image_plane_y(real j, real offset, real height, real tan_half_fov) {
   return (1.0 - (j + 0.5 + offset) * (2.0 / height)) * tan_half_fov;
 }
+
+// Unit direction x right + y up + forward.
+FORMULA void view_ray(real x, real y, real rx, real ry, real rz, real ux, real uy, real uz, real fx, real fy, real fz,
+                      OUT(real) dx, OUT(real) dy, OUT(real) dz) {
+  real s = 1.0 / sqrt(fma(x, x, fma(y, y, 1.0)));
+  dx = fma(x, rx, fma(y, ux, fx)) * s;
+  dy = fma(x, ry, fma(y, uy, fy)) * s;
+  dz = fma(x, rz, fma(y, uz, fz)) * s;
+}
+
+// A point (relative to the ray's origin) seen from the unit ray d: `foot` is where its perpendicular meets the ray, may be negative;
+// `h` its distance from the ray, at least `least`. By the perpendicular vector: |p|^2 - foot^2 would cancel.
+FORMULA void perpendicular(real dx, real dy, real dz, real px, real py, real pz, real least, OUT(real) foot, OUT(real) h) {
+  foot = fma(dx, px, fma(dy, py, dz * pz));
+  real ex = fma(-foot, dx, px);
+  real ey = fma(-foot, dy, py);
+  real ez = fma(-foot, dz, pz);
+  h = max(sqrt(fma(ex, ex, fma(ey, ey, ez * ez))), least);
+}

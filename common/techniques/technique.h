@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
@@ -54,8 +55,8 @@ struct FrameRequest {
 struct Plan {
   struct Upload {
     Buffer buffer;
-    std::vector<std::byte> bytes;
-    std::uint64_t key = 0;  // hash of the content
+    std::uint64_t key = 0;                         // names the content
+    std::function<std::vector<std::byte>()> make;  // called only when no backend holds it under this key
   };
   struct Skip {
     std::string what, why;

@@ -1,0 +1,264 @@
+#include "cpu/backend.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "common/plan/keys.h"
+#include "cpu/held_images.h"
+#include "cpu/kernels.h"
+#include "cpu/parallel.h"
+#include "cpu/surface_visibility.h"
+
+namespace airlight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+int machine_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+// Steps that run together, tile by tile: at most one that is not Domain::pixel, at the head.
+struct Group {
+  std::vector<std::size_t> steps;
+  Extent extent;
+};
+
+// A transient image lives in tile scratch when only one group touches it.
+struct Scratch {
+  AlignedFloats floats;
+  TileView view;
+  std::vector<double> seconds;  // by step
+};
+
+}  // namespace
+
+struct CpuBackend::State {
+  Simd simd;
+  bool fuse;
+  Workers workers;
+  std::map<Handle, HeldImage> images;
+  std::map<Handle, HeldBuffer> buffers;
+  std::map<std::size_t, Rasteriser> rasterisers;  // by position of their step
+  std::vector<Scratch> scratch;                   // by worker
+  int threads_that_ran = 0;
+
+  explicit State(const CpuOptions& o)
+      : simd(o.simd), fuse(o.fuse), workers(o.threads > 0 ? o.threads : machine_threads()) {
+    scratch.resize(static_cast<std::size_t>(workers.threads()));
+  }
+
+  std::span<const std::byte> buffer(const Buffer& b) const {
+    const auto found = buffers.find(b);
+    if (found == buffers.end()) throw std::logic_error("a step reads a buffer that was not uploaded");
+    return found->second.bytes;
+  }
+  template <class T>
+  std::span<const T> buffer_of(const Buffer& b) const {
+    const std::span<const std::byte> bytes = buffer(b);
+    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+
+  std::uint64_t upload_key(Handle h) const {
+    if (const auto b = buffers.find(h); b != buffers.end()) return b->second.key;
+    const auto i = images.find(h);
+    if (i == images.end() || i->second.key == 0) throw std::logic_error("a step reads what was neither made nor uploaded");
+    return i->second.key;
+  }
+
+  std::vector<Group> groups(std::span<const Step>, const std::vector<bool>& run) const;
+  void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
+  void prepare(std::size_t index, const SurfaceVisibility&);
+  template <class PixelStep>
+  void prepare(std::size_t, const PixelStep&) {}
+
+  void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view) {
+    rasterisers.at(index).run_tile(view.tile, view.plane(a.distance), view.plane(a.normal, 0), view.plane(a.normal, 1),
+                                   view.plane(a.normal, 2), view.plane(a.material));
+  }
+  template <class PixelStep>
+  void run_tile(std::size_t, const PixelStep& a, const TileView& view) {
+    airlight::run_tile(a, view, simd);
+  }
+};
+
+std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, const std::vector<bool>& run) const {
+  std::vector<Group> found;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!run[i]) continue;
+    const Extent extent = outputs_of(steps[i].what).at(0).extent;
+    const bool joins = fuse && !found.empty() && domain_of(steps[i].what) == Domain::pixel && found.back().extent == extent;
+    if (!joins) found.push_back({{}, extent});
+    found.back().steps.push_back(i);
+  }
+  return found;
+}
+
+void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a) {
+  rasterisers[index].prepare(a, buffer_of<float>(a.positions), buffer_of<float>(a.normals),
+                             buffer_of<std::uint32_t>(a.triangles), simd, workers);
+}
+
+void CpuBackend::State::run_group(const Group& group, std::span<const Step> steps, std::span<StepStats> stats,
+                                  Progress& progress) {
+  // What the group touches: whole images where they are held, else a place in each worker's scratch.
+  struct Place {
+    std::uint32_t id;
+    HeldImage* whole;
+    std::size_t offset;
+  };
+  std::vector<Place> places;
+  std::vector<std::pair<std::uint32_t, std::span<const std::byte>>> inputs;
+  std::size_t scratch_floats = 0;
+  std::uint32_t last_id = 0;
+  const auto place = [&](const Image& image) {
+    if (std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.id == image.id; })) return;
+    const auto held = images.find(image);
+    places.push_back({image.id, held == images.end() ? nullptr : &held->second, scratch_floats});
+    if (held == images.end()) {
+      scratch_floats += static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
+    }
+    last_id = std::max(last_id, image.id);
+  };
+  for (const std::size_t i : group.steps) {
+    std::visit(
+        [&](const auto& a) {
+          a.fields(a, [&](const Field&, const auto& value) {
+            using Value = std::remove_cvref_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, Image>) {
+              if (value) place(value);
+            } else if constexpr (std::is_same_v<Value, Buffer>) {
+              if (value) inputs.emplace_back(value.id, buffer(value)), last_id = std::max(last_id, value.id);
+            }
+          });
+          const Clock::time_point start = Clock::now();
+          prepare(i, a);
+          stats[i].seconds += seconds_since(start);
+        },
+        steps[i].what);
+  }
+  const Tiling tiling{group.extent};
+  for (Scratch& s : scratch) {
+    s.floats.resize(scratch_floats);
+    s.seconds.assign(steps.size(), 0.0);
+    s.view.images.assign(last_id + 1, nullptr);
+    s.view.buffers.assign(last_id + 1, {});
+    for (const auto& [id, bytes] : inputs) s.view.buffers[id] = bytes;
+  }
+  workers.each(tiling.count(), [&](int t, int worker) {
+    if (progress.stop_requested()) throw Interrupted();
+    Scratch& s = scratch[static_cast<std::size_t>(worker)];
+    s.view.tile = tiling.tile(t);
+    for (const Place& p : places) s.view.images[p.id] = p.whole ? p.whole->tile(t) : s.floats.data() + p.offset;
+    for (const std::size_t i : group.steps) {
+      const Clock::time_point start = Clock::now();
+      std::visit([&](const auto& a) { run_tile(i, a, s.view); }, steps[i].what);
+      s.seconds[i] += seconds_since(start);
+    }
+  });
+  threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
+  for (const std::size_t i : group.steps) {
+    for (const Scratch& s : scratch) stats[i].seconds += s.seconds[i];
+    stats[i].items = static_cast<std::uint64_t>(group.extent.width) * static_cast<std::uint64_t>(group.extent.height);
+  }
+}
+
+CpuBackend::CpuBackend(const CpuOptions& options) {
+  const std::vector<Simd> there = available_simd();
+  if (std::find(there.begin(), there.end(), options.simd) == there.end()) {
+    throw MachineError("this machine or build has no " + std::string(name_of(options.simd)));
+  }
+  state_ = std::make_unique<State>(options);
+}
+
+CpuBackend::~CpuBackend() = default;
+
+std::string CpuBackend::describe() const {
+  const int n = state_->workers.threads();
+  return "cpu, " + std::string(name_of(state_->simd)) + ", " + std::to_string(n) + (n == 1 ? " thread" : " threads");
+}
+
+void CpuBackend::upload(Buffer buffer, std::span<const std::byte> bytes, std::uint64_t key) {
+  HeldBuffer& held = state_->buffers[buffer];
+  held.bytes.assign(bytes.begin(), bytes.end());
+  held.key = key;
+}
+
+bool CpuBackend::holds(Buffer buffer, std::uint64_t key) const {
+  const auto held = state_->buffers.find(buffer);
+  return held != state_->buffers.end() && held->second.key == key;
+}
+
+void CpuBackend::upload(const Image& image, std::span<const float> rows, std::uint64_t key) {
+  HeldImage& held = state_->images[image];
+  held.reset(image);
+  held.from_rows(rows);
+  held.key = key;
+}
+
+void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progress) {
+  State& s = *state_;
+  const Clock::time_point start = Clock::now();
+  const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return s.upload_key(h); });
+  const std::vector<bool> run = steps_to_run(steps, keys, [&](const Image& image, std::uint64_t key) {
+    const auto held = s.images.find(image);
+    return held != s.images.end() && held->second.key == key;
+  });
+  const std::vector<Group> groups = s.groups(steps, run);
+
+  // Whole images for what is kept, and for what one group hands to another.
+  std::map<Handle, std::size_t> writer;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::size_t i : groups[g].steps) {
+      for (const Handle input : inputs_of(steps[i].what)) {
+        const auto written = writer.find(input);
+        if (written == writer.end() || written->second == g) continue;
+        for (const std::size_t j : groups[written->second].steps) {
+          for (const Image& image : outputs_of(steps[j].what)) {
+            if (image.id == input.id && !image.keep) s.images[image].reset(image);
+          }
+        }
+      }
+      for (const Image& image : outputs_of(steps[i].what)) {
+        writer[image] = g;
+        if (image.keep) {
+          s.images[image].reset(image);
+        } else {
+          s.images.erase(image);
+        }
+      }
+    }
+  }
+
+  s.threads_that_ran = 0;
+  stats.steps.clear();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    stats.steps.push_back({std::string(name_of(steps[i].what)), 0, 0, !run[i]});
+  }
+  for (const Group& group : groups) {
+    progress.check();
+    s.run_group(group, steps, stats.steps, progress);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!run[i]) continue;
+    for (const Image& image : outputs_of(steps[i].what)) {
+      if (image.keep) s.images.at(image).key = output_key(keys[i], image);
+    }
+  }
+  stats.seconds = seconds_since(start);
+}
+
+void CpuBackend::download(const Image& image, std::span<float> rows) {
+  const auto held = state_->images.find(image);
+  if (held == state_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
+  held->second.to_rows(rows);
+}
+
+Simd CpuBackend::simd_that_ran() const { return target_that_runs(state_->simd); }
+int CpuBackend::threads_that_ran() const { return state_->threads_that_ran; }
+
+}  // namespace airlight

@@ -1,0 +1,71 @@
+#include "cpu/held_images.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+namespace airlight {
+
+namespace {
+constexpr std::align_val_t cache_line{64};
+}
+
+void AlignedFloats::Free::operator()(float* p) const { ::operator delete[](p, cache_line); }
+
+float* AlignedFloats::resize(std::size_t n) {
+  if (n > size_) {
+    data_.reset();
+    size_ = 0;
+    data_.reset(new (cache_line) float[n]());
+    size_ = n;
+  }
+  return data_.get();
+}
+
+void HeldImage::reset(const Image& image) {
+  image_ = image;
+  key = 0;
+  floats_per_tile_ = static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
+  values_.resize(floats_per_tile_ * static_cast<std::size_t>(Tiling{image.extent}.count()));
+}
+
+// copy(in the tile, in the rows, pixels): each row of each tile of each plane; in the rows a pixel's channels lie side by side.
+template <class Copy>
+void HeldImage::each_row_piece(Copy&& copy) const {
+  const Tiling tiling{image_.extent};
+  const int planes = channels(image_.format);
+  const auto width = static_cast<std::size_t>(image_.extent.width);
+  const auto layer_pixels = width * static_cast<std::size_t>(image_.extent.height);
+  for (int t = 0; t < tiling.count(); ++t) {
+    const Tile at = tiling.tile(t);
+    const int columns = std::min(tile_side, image_.extent.width - at.x);
+    const int rows = std::min(tile_side, image_.extent.height - at.y);
+    float* plane = tile(t);
+    for (int layer = 0; layer < image_.layers; ++layer) {
+      for (int c = 0; c < planes; ++c, plane += tile_pixels) {
+        for (int y = 0; y < rows; ++y) {
+          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels +
+                                    static_cast<std::size_t>(at.y + y) * width + static_cast<std::size_t>(at.x);
+          copy(plane + static_cast<std::ptrdiff_t>(y) * tile_side,
+               pixel * static_cast<std::size_t>(planes) + static_cast<std::size_t>(c), columns, planes);
+        }
+      }
+    }
+  }
+}
+
+void HeldImage::from_rows(std::span<const float> rows) {
+  if (rows.size() != image_.floats()) throw std::logic_error("image upload: wrong number of floats");
+  each_row_piece([&](float* in_tile, std::size_t first, int pixels, int stride) {
+    for (int x = 0; x < pixels; ++x) in_tile[x] = rows[first + static_cast<std::size_t>(x * stride)];
+  });
+}
+
+void HeldImage::to_rows(std::span<float> rows) const {
+  if (rows.size() != image_.floats()) throw std::logic_error("image download: wrong number of floats");
+  each_row_piece([&](const float* in_tile, std::size_t first, int pixels, int stride) {
+    for (int x = 0; x < pixels; ++x) rows[first + static_cast<std::size_t>(x * stride)] = in_tile[x];
+  });
+}
+
+}  // namespace airlight

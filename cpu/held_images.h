@@ -1,0 +1,56 @@
+// What the CPU backend holds between and during runs: whole images, tile by tile, and buffers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/image.h"
+#include "cpu/tile.h"
+
+namespace airlight {
+
+// Floats on a 64-byte boundary (a cache line, and the widest vector).
+class AlignedFloats {
+ public:
+  // Grows only; the content is lost when it does.
+  float* resize(std::size_t n);
+  float* data() const { return data_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* p) const;
+  };
+  std::unique_ptr<float[], Free> data_;
+  std::size_t size_ = 0;
+};
+
+// One whole image: [tile][layer][channel][tile_pixels].
+class HeldImage {
+ public:
+  void reset(const Image&);
+  float* tile(int index) const { return values_.data() + static_cast<std::size_t>(index) * floats_per_tile_; }
+  const Image& image() const { return image_; }
+  void from_rows(std::span<const float>);
+  void to_rows(std::span<float>) const;
+
+  std::uint64_t key = 0;  // of its content; 0: none
+
+ private:
+  template <class Copy>
+  void each_row_piece(Copy&&) const;
+
+  Image image_;
+  std::size_t floats_per_tile_ = 0;
+  AlignedFloats values_;
+};
+
+struct HeldBuffer {
+  std::vector<std::byte> bytes;
+  std::uint64_t key = 0;
+};
+
+}  // namespace airlight

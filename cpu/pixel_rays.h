@@ -1,0 +1,36 @@
+// The view rays of a tile's pixels, a vector of lanes at a time. Included after cpu/simd.h, anew for every target.
+#if defined(AIRLIGHT_CPU_PIXEL_RAYS_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AIRLIGHT_CPU_PIXEL_RAYS_H
+#undef AIRLIGHT_CPU_PIXEL_RAYS_H
+#else
+#define AIRLIGHT_CPU_PIXEL_RAYS_H
+#endif
+
+#include "common/algorithms/view.h"
+#include "cpu/tile.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+struct Real3 {
+  Real x, y, z;
+};
+HWY_INLINE Real3 real3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+HWY_INLINE Real dot(const Real3& a, const Real3& b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+
+// Unit directions of the rays of pixels i .. i + lanes - 1 of the tile.
+HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {
+  const Real column = first_lanes() + static_cast<float>(tile.x + i % tile_side);
+  const Real row = static_cast<float>(tile.y + i / tile_side);
+  const auto width = static_cast<float>(view.extent.width), height = static_cast<float>(view.extent.height);
+  const Real x = image_plane_x(column, view.offset.x, width, height, view.tan_half_fov);
+  const Real y = image_plane_y(row, view.offset.y, height, view.tan_half_fov);
+  Real3 d;
+  view_ray(x, y, view.right.x, view.right.y, view.right.z, view.up.x, view.up.y, view.up.z, view.forward.x,
+           view.forward.y, view.forward.z, d.x, d.y, d.z);
+  return d;
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

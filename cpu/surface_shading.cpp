@@ -1,0 +1,115 @@
+#include "cpu/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/surface_shading.cpp"
+#include <hwy/foreach_target.h>
+
+#include "cpu/simd.h"
+//
+#include "cpu/pixel_rays.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+namespace {
+
+// The materials' seven numbers for each lane.
+struct LaneMaterial {
+  Real diffuse[3], specular[3], shininess;
+};
+
+// One material is the same for all lanes; of several each lane looks up its own. A lane that hits nothing gets the first.
+HWY_INLINE LaneMaterial lane_material(const SurfaceShading& a, Real index) {
+  static_assert(sizeof(Material) == 7 * sizeof(float));
+  LaneMaterial m;
+  if (a.materials.size() == 1) {
+    const Material& only = a.materials[0];
+    for (int c = 0; c < 3; ++c) m.diffuse[c] = only.diffuse[c], m.specular[c] = only.specular[c];
+    m.shininess = only.shininess;
+    return m;
+  }
+  const auto* values = reinterpret_cast<const float*>(a.materials.data());
+  const Real first = max(index, 0.0) * 7.0;
+  for (int c = 0; c < 3; ++c) {
+    m.diffuse[c] = fetch(values, first + c);
+    m.specular[c] = fetch(values, first + 3.0 + c);
+  }
+  m.shininess = fetch(values, first + 6.0);
+  return m;
+}
+
+}  // namespace
+
+static void surface_shading(const SurfaceShading& a, const TileView& view) {
+  const float* distance = view.plane(a.distance);
+  const float* material = view.plane(a.material);
+  const float* normal[3];
+  for (int c = 0; c < 3; ++c) normal[c] = view.plane(a.normal, c);
+  const float* through = view.plane(a.transmittance);
+  bool glossy = false;
+  for (const Material& m : a.materials) glossy |= m.specular.x > 0 || m.specular.y > 0 || m.specular.z > 0;
+
+  for (int i = 0; i < tile_pixels; i += lanes) {
+    const Real index = load(material + i);
+    const Real t = load(through + i);
+    const Mask hit = index >= 0.0;
+    Real direct[3], ambient[3];
+    if (any(hit)) {
+      const LaneMaterial m = lane_material(a, index);
+      const Real3 d = pixel_rays(a.view, view.tile, i);
+      const Real3 n{load(normal[0] + i), load(normal[1] + i), load(normal[2] + i)};
+      const Real depth = select(hit, load(distance + i), 0.0);
+      const Real3 p{d.x * depth, d.y * depth, d.z * depth};
+      const Real twice = dot(n, d) * 2.0;
+      const Real3 mirror{fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
+      for (std::size_t k = 0; k < a.lights.size(); ++k) {
+        const Light& light = a.lights[k];
+        Real3 l;
+        Real irradiance = 1.0;
+        if (light.directional) {
+          l = real3(-light.vector);
+        } else {
+          l = {light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
+          const Real length = sqrt(max(dot(l, l), 1e-37));
+          const Real scale = 1.0 / length;
+          l = {l.x * scale, l.y * scale, l.z * scale};
+          irradiance = point_irradiance(length, light.radius, a.extinction);
+        }
+        if (a.light_transmittance) {
+          irradiance *= load(view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);
+        }
+        const Real cosine = dot(n, l);
+        const Real diffuse = lambert(cosine) * irradiance;
+        for (int c = 0; c < 3; ++c) direct[c] = fma(m.diffuse[c] * diffuse, light.power[c], direct[c]);
+        if (glossy) {
+          const Real specular = phong(cosine, dot(mirror, l), m.shininess) * irradiance;
+          for (int c = 0; c < 3; ++c) direct[c] = fma(m.specular[c] * specular, light.power[c], direct[c]);
+        }
+      }
+      for (int c = 0; c < 3; ++c) {
+        direct[c] = select(hit, direct[c] * t, 0.0);
+        ambient[c] = select(hit, m.diffuse[c] * a.ambient[c] * t, 0.0);
+      }
+    }
+    for (int c = 0; c < 3; ++c) {
+      store(select(hit, direct[c] + ambient[c], t * a.background[c]), view.plane(a.surface, c) + i);
+      if (a.surface_direct) store(direct[c], view.plane(a.surface_direct, c) + i);
+      if (a.surface_ambient) store(ambient[c], view.plane(a.surface_ambient, c) + i);
+    }
+  }
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace airlight {
+
+HWY_EXPORT(surface_shading);
+
+void run_tile(const SurfaceShading& a, const TileView& view, Simd simd) {
+  entry(HWY_DISPATCH_TABLE(surface_shading), simd)(a, view);
+}
+
+}  // namespace airlight
+#endif
