@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "app/airlight.h"
+#include "app/supersample.h"
+#include "common/reference/reference.h"
+#include "common/spelling.h"
+#include "common/techniques/technique.h"
+#include "cpu/backend.h"
+#include "gpu/backend.h"
+
+namespace airlight {
+
+namespace {
+
+std::unique_ptr<Backend> make_backend(const RendererOptions& o) {
+  if (o.backend == "gl") return make_gl_backend({.context = o.gl_context, .device = o.gl_device});
+  if (o.backend != "cpu") throw InputError("unknown backend \"" + o.backend + "\", expected cpu | gl");
+  CpuOptions cpu;
+  cpu.threads = o.threads;
+  if (o.simd == "auto") return std::make_unique<CpuBackend>(cpu);
+  constexpr std::pair<std::string_view, Simd> names[] = {
+      {"scalar", Simd::scalar}, {"avx2", Simd::avx2}, {"avx512", Simd::avx512}, {"neon", Simd::neon}};
+  for (const auto& [name, simd] : names) {
+    if (name == o.simd) {
+      cpu.simd = simd;
+      return std::make_unique<CpuBackend>(cpu);
+    }
+  }
+  throw InputError("unknown SIMD target \"" + o.simd + "\", expected auto | scalar | avx2 | avx512 | neon");
+}
+
+// What the settings ask for: by name, by the scene, or the first that supports it.
+const Technique& chosen_technique(const Scene& scene, const RenderSettings& settings) {
+  const bool open = settings.technique == "auto";
+  const std::string& name = open ? scene.technique : settings.technique;
+  if (!name.empty() && name != "auto") {
+    const Technique& t = technique(name);
+    if (const auto why = t.refuses(scene)) throw InputError("technique " + name + " cannot render this scene: " + *why);
+    return t;
+  }
+  std::string reasons;
+  for (const Technique& t : techniques()) {
+    if (!t.plan) continue;
+    const auto why = t.refuses(scene);
+    if (!why) return t;
+    reasons += "; " + std::string(t.name) + ": " + *why;
+  }
+  throw InputError("no real-time technique of this version renders this scene (reference does)" + reasons);
+}
+
+FrameRequest request_for(const Technique& technique, const Scene& scene, const RenderSettings& settings) {
+  FrameRequest request;
+  request.extent = settings.resolution.value_or(scene.camera.resolution);
+  if (request.extent.width < 1 || request.extent.width > 65535 || request.extent.height < 1 ||
+      request.extent.height > 65535) {
+    throw InputError("resolution: expected 1..65535 pixels a side");
+  }
+  if (settings.supersample < 1 || settings.supersample > 16) throw InputError("supersample: expected 1..16");
+  auto knobs = technique.name == scene.technique ? scene.settings : decltype(scene.settings)();
+  knobs.insert(knobs.end(), settings.knobs.begin(), settings.knobs.end());
+  request.knobs = KnobValues(technique.knobs, knobs);
+
+  const std::vector<std::string> names = image_names(scene);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  for (const std::string& name : settings.images) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("unknown image \"" + name + "\"" + suggestion(name, known));
+    }
+    request.images.insert(name);
+  }
+  return request;
+}
+
+using Images = std::map<std::string, HostImage>;
+
+HostImage image_of(Backend& backend, const Plan::Output& output) {
+  const Image& from = output.image;
+  HostImage image(from.extent, channels(from.format));
+  if (from.layers == 1) {
+    backend.download(from, image.values);
+    return image;
+  }
+  std::vector<float> layers(from.floats());
+  backend.download(from, layers);
+  const auto first = layers.begin() + static_cast<std::ptrdiff_t>(image.values.size()) * output.layer;
+  std::copy_n(first, image.values.size(), image.values.begin());
+  return image;
+}
+
+Images run_plan(Backend& backend, const Plan& plan, Stats& stats, Progress& progress) {
+  for (const Plan::Upload& upload : plan.uploads) {
+    progress.check();
+    if (!backend.holds(upload.buffer, upload.key)) backend.upload(upload.buffer, upload.make(), upload.key);
+  }
+  Stats pass;
+  backend.run(plan.steps, pass, progress);
+  stats.seconds += pass.seconds;
+  if (stats.steps.empty()) {
+    stats.steps = pass.steps;
+  } else {
+    for (std::size_t i = 0; i < pass.steps.size(); ++i) stats.steps[i].seconds += pass.steps[i].seconds;
+  }
+  Images images;
+  for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output));
+  return images;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  RendererOptions options;
+  std::unique_ptr<Backend> backend;
+
+  int threads() const {
+    return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+
+  Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats,
+              Progress& progress) {
+    Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), stats, progress)
+                                   : render_reference(scene, request, threads(), stats, progress);
+    for (const std::string& name : request.images) {  // left out because it is black: a light without power
+      images.try_emplace(name, request.extent, image_channels(name));
+    }
+    return images;
+  }
+};
+
+Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>()) {
+  state_->options = options;
+  state_->backend = make_backend(options);
+}
+
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+std::string Renderer::describe() const { return state_->backend->describe(); }
+
+const HostImage& Frame::image(std::string_view name) const {
+  for (const NamedImage& i : images) {
+    if (i.name == name) return i.image;
+  }
+  throw std::out_of_range("the frame has no image " + std::string(name));
+}
+
+Frame Renderer::render(const Scene& scene, const RenderSettings& settings, Progress& progress) {
+  const Technique& technique = chosen_technique(scene, settings);
+  FrameRequest request = request_for(technique, scene, settings);
+
+  Frame frame;
+  frame.technique = technique.name;
+  frame.knobs = request.knobs.all();
+  frame.device = technique.plan ? describe() : "reference, double, " + std::to_string(state_->threads()) + " threads";
+
+  Images images;
+  if (settings.supersample == 1) {
+    images = state_->pass(technique, scene, request, frame.stats, progress);
+  } else {
+    // beauty stays the float sum of the averaged parts.
+    const bool beauty = request.images.contains("beauty");
+    if (beauty) request.images.insert({"surface", "airlight"});
+    Supersampler samples;
+    const std::vector<glm::dvec2> centres = subpixel_centres(settings.supersample);
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+      progress.report("samples", static_cast<double>(k) / static_cast<double>(centres.size()));
+      request.offset = centres[k];
+      for (const auto& [name, image] : state_->pass(technique, scene, request, frame.stats, progress)) {
+        samples.add(name, image);
+      }
+    }
+    for (const std::string& name : request.images) images.emplace(name, samples.mean(name));
+    if (beauty) {
+      const HostImage &surface = images.at("surface"), &airlight = images.at("airlight");
+      HostImage& sum = images.at("beauty");
+      for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] = surface.values[i] + airlight.values[i];
+    }
+  }
+  for (const std::string& name : settings.images) frame.images.push_back({name, images.at(name)});
+  return frame;
+}
+
+Frame Renderer::render(const Scene& scene, const RenderSettings& settings) {
+  NoProgress progress;
+  return render(scene, settings, progress);
+}
+
+std::string explain(const Scene& scene, const RenderSettings& settings) {
+  const Technique& technique = chosen_technique(scene, settings);
+  const FrameRequest request = request_for(technique, scene, settings);
+  std::string text = std::string(technique.name) + ": " + std::string(technique.summary) + "\n";
+  for (const auto& [name, value] : request.knobs.all()) text += "  " + name + " = " + value + "\n";
+  if (!technique.plan) return text;
+  const Plan plan = technique.plan(scene, request);
+  text += "steps\n";
+  int number = 0;
+  for (const Step& step : plan.steps) {
+    text += "  " + std::to_string(++number) + ". " + std::string(name_of(step.what)) + ": " + std::string(step.why) + "\n";
+  }
+  if (!plan.skips.empty()) text += "left out\n";
+  for (const Plan::Skip& skip : plan.skips) text += "  " + skip.what + ": " + skip.why + "\n";
+  return text;
+}
+
+}  // namespace airlight

@@ -1,0 +1,29 @@
+// What a scene's surfaces, lights and camera become for the algorithms: single precision, relative to the camera.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/algorithms/view.h"
+#include "common/scene/scene.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+View view_of(const Scene&, const FrameRequest&);
+
+// Lights of non-zero power only where `index` is given: position in the scene of each light returned.
+std::vector<Light> lights_of(const Scene&, std::vector<std::size_t>* index = nullptr);
+std::vector<Material> materials_of(const Scene&);
+
+// The surfaces as one list of triangles, laid out as SurfaceVisibility wants it. The three uploads are made on demand.
+struct Geometry {
+  std::size_t vertices = 0, triangles = 0;
+  Plan::Upload positions, normals, indices;
+};
+// `first_id`: handle of the positions; normals and indices get the next two. Throws InputError beyond 2^31 indices in all.
+Geometry geometry_of(const Scene&, std::uint32_t first_id);
+
+}  // namespace airlight
