@@ -27,14 +27,14 @@ struct Mask {
 HWY_INLINE Mask operator&&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
 HWY_INLINE Mask operator||(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
-HWY_INLINE bool any(Mask a) { return !hn::AllFalse(Floats(), a.m); }
-HWY_INLINE bool all(Mask a) { return hn::AllTrue(Floats(), a.m); }
+HWY_INLINE bool any_lane(Mask a) { return !hn::AllFalse(Floats(), a.m); }
 
 struct Real {
   Vec v;
-  HWY_INLINE Real() : v(hn::Zero(Floats())) {}
+  Real() = default;  // trivial: a constructor that the compiler makes for a struct of these has no target
   HWY_INLINE Real(Vec x) : v(x) {}
   HWY_INLINE Real(double x) : v(hn::Set(Floats(), static_cast<float>(x))) {}
+  HWY_INLINE Real(int x) : v(hn::Set(Floats(), static_cast<float>(x))) {}
   HWY_INLINE Real(float x) : v(hn::Set(Floats(), x)) {}
   HWY_INLINE Real& operator+=(Real b);
   HWY_INLINE Real& operator-=(Real b);
@@ -91,6 +91,7 @@ HWY_INLINE real mantissa_of(real x) {
   return hn::BitCast(Floats(), hn::Or(hn::And(hn::BitCast(di, x.v), hn::Set(di, 0x007fffff)), hn::Set(di, 0x3f800000)));
 }
 HWY_INLINE real fetch(table t, real i) { return hn::GatherIndex(Floats(), t, to_int(i)); }
+HWY_INLINE real element(table t, int i) { return t[i]; }
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

@@ -53,8 +53,8 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
     const Real index = load(material + i);
     const Real t = load(through + i);
     const Mask hit = index >= 0.0;
-    Real direct[3], ambient[3];
-    if (any(hit)) {
+    Real direct[3] = {0.0, 0.0, 0.0}, ambient[3] = {0.0, 0.0, 0.0};
+    if (any_lane(hit)) {
       const LaneMaterial m = lane_material(a, index);
       const Real3 d = pixel_rays(a.view, view.tile, i);
       const Real3 n{load(normal[0] + i), load(normal[1] + i), load(normal[2] + i)};

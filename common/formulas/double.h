@@ -11,6 +11,7 @@ using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
 
+inline bool any_lane(mask m) { return m; }
 inline real select(mask m, real a, real b) { return m ? a : b; }
 inline real sqrt(real x) { return std::sqrt(x); }
 inline real abs(real x) { return std::fabs(x); }
@@ -23,11 +24,9 @@ inline real exp2_int(real n) { return std::ldexp(1.0, static_cast<int>(n)); }
 inline real exponent_of(real x) { return std::ilogb(x); }
 inline real mantissa_of(real x) { return std::ldexp(x, -std::ilogb(x)); }
 inline real fetch(table t, real i) { return static_cast<real>(t[static_cast<long>(i)]); }
+inline real element(table t, int i) { return static_cast<real>(t[i]); }
 inline real exp_(real x) { return std::exp(x); }
 inline real log_(real x) { return std::log(x); }
-inline real atan2_(real y, real x) { return std::atan2(y, x); }
-inline real sin_(real x) { return std::sin(x); }
-inline real cos_(real x) { return std::cos(x); }
 
 #include "common/formulas/formulas.h"
 

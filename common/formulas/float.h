@@ -13,6 +13,7 @@ struct Float {
   Float() : v(0) {}
   Float(double x) : v(static_cast<float>(x)) {}
   Float(float x) : v(x) {}
+  Float(int x) : v(static_cast<float>(x)) {}
   Float& operator+=(Float b) { v += b.v; return *this; }
   Float& operator-=(Float b) { v -= b.v; return *this; }
   Float& operator*=(Float b) { v *= b.v; return *this; }
@@ -33,6 +34,7 @@ using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
 
+inline bool any_lane(mask m) { return m; }
 inline real select(mask m, real a, real b) { return m ? a : b; }
 inline real sqrt(real x) { return std::sqrt(x.v); }
 inline real abs(real x) { return std::fabs(x.v); }
@@ -45,6 +47,7 @@ inline real exp2_int(real n) { return std::bit_cast<float>((static_cast<std::int
 inline real exponent_of(real x) { return static_cast<float>((std::bit_cast<std::int32_t>(x.v) >> 23) - 127); }
 inline real mantissa_of(real x) { return std::bit_cast<float>((std::bit_cast<std::int32_t>(x.v) & 0x007fffff) | 0x3f800000); }
 inline real fetch(table t, real i) { return t[static_cast<std::int32_t>(i.v)]; }
+inline real element(table t, int i) { return t[i]; }
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

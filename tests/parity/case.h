@@ -1,0 +1,42 @@
+// A parity case is data: inputs made in code, a list of steps, the images that are its result. The same cases are run as kernel
+// benchmarks at a larger extent.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/backend.h"
+
+namespace airlight {
+
+struct Case {
+  std::vector<std::pair<Buffer, std::vector<std::byte>>> buffers;
+  std::vector<std::pair<Image, std::vector<float>>> images;
+  std::vector<Step> steps;
+  std::vector<std::pair<std::string, Image>> results;  // each kept
+};
+
+struct NamedCase {
+  std::string_view name;  // algorithm/what is special
+  Case (*make)(Extent);
+};
+
+// One list an algorithm, in the file of its name, and one of whole frames.
+std::span<const NamedCase> surface_visibility_cases();
+std::span<const NamedCase> view_transmittance_cases();
+std::span<const NamedCase> surface_shading_cases();
+std::span<const NamedCase> homogeneous_airlight_cases();
+std::span<const NamedCase> compose_cases();
+std::span<const NamedCase> frame_cases();
+std::vector<NamedCase> all_cases();
+
+// Uploads the inputs; then run(case.steps) may be called any number of times.
+void upload(Backend&, const Case&);
+std::vector<float> download(Backend&, const Image&);
+
+}  // namespace airlight

@@ -1,0 +1,43 @@
+#include "common/techniques/shadow_planes.h"
+#include "tests/parity/inputs.h"
+
+namespace airlight {
+
+namespace {
+
+Case frame(const Scene& scene, Extent extent) {
+  const Technique technique = shadow_planes();
+  FrameRequest request;
+  request.extent = extent;
+  request.images = {"beauty", "surface", "airlight", "depth"};
+  request.knobs = KnobValues(technique.knobs, {});
+  const Plan plan = technique.plan(scene, request);
+  Case c;
+  for (const Plan::Upload& upload : plan.uploads) c.buffers.emplace_back(upload.buffer, upload.make());
+  c.steps = plan.steps;
+  for (const Plan::Output& output : plan.outputs) c.results.emplace_back(output.name, output.image);
+  return c;
+}
+
+Case torus_in_fog(Extent e) { return frame(test_scene(20000), e); }
+Case torus_in_clear_air(Extent e) {
+  Scene scene = test_scene(20000);
+  scene.medium.extinction = 0;
+  return frame(scene, e);
+}
+Case empty_fog(Extent e) {
+  Scene scene = test_scene(600);
+  scene.surfaces.clear();
+  return frame(scene, e);
+}
+
+}  // namespace
+
+std::span<const NamedCase> frame_cases() {
+  static constexpr NamedCase cases[] = {{"frame/torus_in_fog", torus_in_fog},
+                                        {"frame/torus_in_clear_air", torus_in_clear_air},
+                                        {"frame/empty_fog", empty_fog}};
+  return cases;
+}
+
+}  // namespace airlight

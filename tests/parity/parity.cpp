@@ -1,0 +1,56 @@
+// CPU against GL: every case on both backends, the difference printed also when it is small.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "cpu/backend.h"
+#include "gpu/backend.h"
+#include "tests/parity/case.h"
+#include "tests/parity/compare.h"
+#include "tests/tolerances.h"
+
+namespace airlight {
+
+namespace {
+
+class Parity : public testing::TestWithParam<NamedCase> {};
+
+std::string gtest_name(const testing::TestParamInfo<NamedCase>& info) {
+  std::string name(info.param.name);
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
+
+TEST_P(Parity, CpuEqualsGl) {
+  const Case c = GetParam().make({160, 120});
+  CpuBackend cpu({});
+  const std::unique_ptr<Backend> gl = make_gl_backend({});
+  std::printf("%s against %s\n", cpu.describe().c_str(), gl->describe().c_str());
+  NoProgress progress;
+  Stats stats;
+  for (Backend* backend : {static_cast<Backend*>(&cpu), gl.get()}) {
+    upload(*backend, c);
+    backend->run(c.steps, stats, progress);
+  }
+  // Only rasterised surfaces have edges at which the two may choose another triangle.
+  std::vector<bool> edges;
+  for (const auto& [name, image] : c.results) {
+    if (name == "distance" || name == "depth") edges = edges_of(image.extent, download(cpu, image));
+  }
+  const double share = edges.empty() ? 0 : tolerance("parity_edge_share");
+  for (const auto& [name, image] : c.results) {
+    const Difference d = difference(image, download(cpu, image), download(*gl, image), edges);
+    std::printf("%s %s: %s\n", std::string(GetParam().name).c_str(), name.c_str(), d.text().c_str());
+    ASSERT_TRUE(d.finite) << name;
+    EXPECT_LE(d.share, share) << name;
+    EXPECT_EQ(d.share_inside, 0) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Parity, testing::ValuesIn(all_cases()), gtest_name);
+
+}  // namespace
+
+}  // namespace airlight
