@@ -22,9 +22,6 @@ class Rasteriser {
   void prepare(const SurfaceVisibility&, std::span<const float> positions, std::span<const float> normals,
                std::span<const std::uint32_t> triangles, Simd, Workers&);
 
-  // Whether any triangle may touch the tile.
-  bool touches(int tile) const;
-
   // Each pointer: tile_pixels floats. Safe from many threads at once.
   void run_tile(Tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material) const;
 

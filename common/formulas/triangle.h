@@ -23,3 +23,19 @@ FORMULA void ray_triangle(real dx, real dy, real dz, real ax, real ay, real az, 
   weight_b = min(max(wb, 0.0), 1.0);
   weight_c = min(max(wc, 0.0), 1.0 - weight_b);
 }
+
+// Unit normal at a point of the triangle from those of its corners, turned against the ray d. Where they cancel: against the ray.
+FORMULA void shading_normal(real dx, real dy, real dz, real ax, real ay, real az, real bx, real by, real bz,
+                            real cx, real cy, real cz, real weight_b, real weight_c, OUT(real) nx, OUT(real) ny, OUT(real) nz) {
+  real weight_a = 1.0 - weight_b - weight_c;
+  real x = fma(ax, weight_a, fma(bx, weight_b, cx * weight_c));
+  real y = fma(ay, weight_a, fma(by, weight_b, cy * weight_c));
+  real z = fma(az, weight_a, fma(bz, weight_b, cz * weight_c));
+  real n2 = fma(x, x, fma(y, y, z * z));
+  mask well = n2 > 1e-12;
+  real toward = fma(x, dx, fma(y, dy, z * dz));
+  real s = select(toward > 0.0, real(-1.0), real(1.0)) / sqrt(max(n2, 1e-12));
+  nx = select(well, x * s, -dx);
+  ny = select(well, y * s, -dy);
+  nz = select(well, z * s, -dz);
+}
