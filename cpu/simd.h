@@ -19,7 +19,7 @@ using Floats = hn::CappedTag<float, 16>;
 using Ints = hn::RebindToSigned<Floats>;
 using Vec = hn::Vec<Floats>;
 using IntVec = hn::Vec<Ints>;
-constexpr int lanes = static_cast<int>(HWY_MIN(16, HWY_MAX_BYTES / 4));
+constexpr int lanes = HWY_TARGET == HWY_SCALAR ? 1 : HWY_MIN(16, HWY_MAX_BYTES / 4);
 
 struct Mask {
   hn::Mask<Floats> m;
