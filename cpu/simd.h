@@ -92,6 +92,28 @@ HWY_INLINE real mantissa_of(real x) {
 }
 HWY_INLINE real fetch(table t, real i) { return hn::GatherIndex(Floats(), t, to_int(i)); }
 HWY_INLINE real element(table t, int i) { return t[i]; }
+HWY_INLINE int integer_element(table t, int i) { return static_cast<int>(t[i]); }
+// Neighbouring pixels mostly need the same patch: each different one is read once, for all lanes that need it.
+HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+  const Ints di;
+  const IntVec index = to_int(at);
+  HWY_ALIGN std::int32_t where[lanes];
+  hn::Store(index, di, where);
+  const auto row = [&](const float* q) HWY_ATTR {
+    return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3]))));
+  };
+  real result = 0.0;
+  auto waiting = hn::Eq(index, index);
+  do {
+    const std::int32_t first = where[hn::FindFirstTrue(di, waiting)];
+    const float* p = t + first;
+    const auto here = hn::Eq(index, hn::Set(di, first));
+    const real value = fma(a0, row(p), fma(a1, row(p + stride), fma(a2, row(p + 2 * stride), a3 * row(p + 3 * stride))));
+    result = hn::IfThenElse(hn::RebindMask(Floats(), here), value.v, result.v);
+    waiting = hn::AndNot(here, waiting);
+  } while (!hn::AllFalse(di, waiting));
+  return result;
+}
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

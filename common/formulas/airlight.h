@@ -38,10 +38,6 @@ FORMULA void cubic_weights(real t, OUT(real) w0, OUT(real) w1, OUT(real) w2, OUT
   w3 = t * ab * (1.0 / 6.0);
 }
 
-FORMULA real cubic_row(table t, real at, real w0, real w1, real w2, real w3) {
-  return fma(fetch(t, at), w0, fma(fetch(t, at + 1.0), w1, fma(fetch(t, at + 2.0), w2, fetch(t, at + 3.0) * w3)));
-}
-
 // Table number `which` (0 M, 1 N, 2 P) at (depth, tau).
 FORMULA real airlight_lookup(table t, real which, real depth, real tau) {
   real n = element(t, 0);
@@ -54,12 +50,7 @@ FORMULA real airlight_lookup(table t, real which, real depth, real tau) {
   cubic_weights(u - i, a0, a1, a2, a3);
   real b0; real b1; real b2; real b3;
   cubic_weights(v - j, b0, b1, b2, b3);
-  real at = fma(fma(which, n, i), n, j) + 4.0;
-  real row0 = cubic_row(t, at, b0, b1, b2, b3);
-  real row1 = cubic_row(t, at + n, b0, b1, b2, b3);
-  real row2 = cubic_row(t, at + 2.0 * n, b0, b1, b2, b3);
-  real row3 = cubic_row(t, at + 3.0 * n, b0, b1, b2, b3);
-  return fma(a0, row0, fma(a1, row1, fma(a2, row2, a3 * row3)));
+  return weighted_patch(t, fma(fma(which, n, i), n, j) + 4.0, integer_element(t, 0), a0, a1, a2, a3, b0, b1, b2, b3);
 }
 
 // B(x): what comes from [x, infinity), divided by sigma_t.

@@ -25,6 +25,13 @@ inline real exponent_of(real x) { return std::ilogb(x); }
 inline real mantissa_of(real x) { return std::ldexp(x, -std::ilogb(x)); }
 inline real fetch(table t, real i) { return static_cast<real>(t[static_cast<long>(i)]); }
 inline real element(table t, int i) { return static_cast<real>(t[i]); }
+inline int integer_element(table t, int i) { return static_cast<int>(t[i]); }
+// sum_ik a_i b_k t[at + i stride + k], i and k in 0..3.
+inline real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+  const float* p = t + static_cast<long>(at);
+  const auto row = [&](const float* q) { return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3])))); };
+  return fma(a0, row(p), fma(a1, row(p + stride), fma(a2, row(p + 2 * stride), a3 * row(p + 3 * stride))));
+}
 inline real exp_(real x) { return std::exp(x); }
 inline real log_(real x) { return std::log(x); }
 

@@ -48,6 +48,13 @@ inline real exponent_of(real x) { return static_cast<float>((std::bit_cast<std::
 inline real mantissa_of(real x) { return std::bit_cast<float>((std::bit_cast<std::int32_t>(x.v) & 0x007fffff) | 0x3f800000); }
 inline real fetch(table t, real i) { return t[static_cast<std::int32_t>(i.v)]; }
 inline real element(table t, int i) { return t[i]; }
+inline int integer_element(table t, int i) { return static_cast<int>(t[i]); }
+// sum_ik a_i b_k t[at + i stride + k], i and k in 0..3.
+inline real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+  const float* p = t + static_cast<long>(at.v);
+  const auto row = [&](const float* q) { return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3])))); };
+  return fma(a0, row(p), fma(a1, row(p + stride), fma(a2, row(p + 2 * stride), a3 * row(p + 3 * stride))));
+}
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"
