@@ -33,12 +33,11 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-// One edge on a row: q + a i + b j for the pixels of a vector. The part that varies within it stays below 2^29, so the rest, exact
-// in 64 bits, may be held at 2^30 without changing its sign.
-HWY_INLINE IntVec edge_values(std::int64_t at_first, IntVec across) {
+// What the lanes' part of an edge leaves: exact in 64 bits, and held at 2^30, which cannot change the sign of the sum, since the part
+// that varies over the lanes stays below 2^29.
+HWY_INLINE std::int32_t held(std::int64_t edge) {
   constexpr std::int64_t limit = std::int64_t{1} << 30;
-  const auto held = static_cast<std::int32_t>(at_first < -limit ? -limit : at_first > limit ? limit : at_first);
-  return hn::Add(hn::Set(Ints(), held), across);
+  return static_cast<std::int32_t>(edge < -limit ? -limit : edge > limit ? limit : edge);
 }
 
 void fill(const PixelTriangle& t, VisibilityTile& s) {
@@ -46,69 +45,93 @@ void fill(const PixelTriangle& t, VisibilityTile& s) {
   const Ints di;
   const int x0 = HWY_MAX(t.x0 - s.tile.x, 0), x1 = HWY_MIN(t.x1 - s.tile.x, tile_side - 1);
   const int y0 = HWY_MAX(t.y0 - s.tile.y, 0), y1 = HWY_MIN(t.y1 - s.tile.y, tile_side - 1);
-  const IntVec lane = hn::Iota(di, 0), none = hn::Set(di, -1);
-  const IntVec across0 = hn::Mul(lane, hn::Set(di, t.a[0]));
-  const IntVec across1 = hn::Mul(lane, hn::Set(di, t.a[1]));
-  const IntVec across2 = hn::Mul(lane, hn::Set(di, t.a[2]));
-  const IntVec id = hn::Set(di, static_cast<std::int32_t>(t.id));
-  const Real kx = static_cast<float>(t.kx), kmin = t.kmin, kmax = t.kmax;
-  const Real k_across = first_lanes() * kx;
+  const int i = s.tile.x + x0, j = s.tile.y + y0;
+  const IntVec lane = hn::Iota(di, 0), none = hn::Set(di, -1), id = hn::Set(di, static_cast<std::int32_t>(t.id));
+  IntVec across[3];
+  std::int64_t edge[3];
+  for (int k = 0; k < 3; ++k) {
+    across[k] = hn::Mul(lane, hn::Set(di, t.a[k]));
+    edge[k] = t.q[k] + static_cast<std::int64_t>(t.a[k]) * i + static_cast<std::int64_t>(t.b[k]) * j;
+  }
+  // 1/z counts from the first pixel of the row, whatever the number of lanes: the same bits on every target.
+  const Real kmin = t.kmin, kmax = t.kmax, kx = static_cast<float>(t.kx);
   for (int y = y0; y <= y1; ++y) {
-    const int j = s.tile.y + y;
-    const double k_row = t.k0 + t.ky * j;
+    std::int64_t at[3] = {edge[0], edge[1], edge[2]};
+    const Real k_row = static_cast<float>(t.k0 + t.kx * i + t.ky * (s.tile.y + y));
     for (int x = x0; x <= x1; x += lanes) {
-      const int i = s.tile.x + x;
-      const auto at = [&](int k) {
-        return t.q[k] + static_cast<std::int64_t>(t.a[k]) * i + static_cast<std::int64_t>(t.b[k]) * j;
-      };
       // All three are >= 0 where their bitwise or has no sign.
-      const IntVec sides = hn::Or(edge_values(at(0), across0), hn::Or(edge_values(at(1), across1), edge_values(at(2), across2)));
+      const IntVec sides = hn::Or(hn::Add(hn::Set(di, held(at[0])), across[0]),
+                                  hn::Or(hn::Add(hn::Set(di, held(at[1])), across[1]),
+                                         hn::Add(hn::Set(di, held(at[2])), across[2])));
       const auto covered = hn::And(hn::Gt(sides, none), hn::Gt(hn::Set(di, x1 - x + 1), lane));
-      if (hn::AllFalse(di, covered)) continue;
-      const int p = y * tile_side + x;
-      const Real k = min(max(k_across + static_cast<float>(k_row + t.kx * i), kmin), kmax);
-      const Real before = load(s.nearness + p);
-      const auto nearer = hn::And(hn::RebindMask(df, covered), hn::Gt(k.v, before.v));
-      hn::StoreU(hn::IfThenElse(nearer, k.v, before.v), df, s.nearness + p);
-      hn::StoreU(hn::IfThenElse(hn::RebindMask(di, nearer), id, hn::LoadU(di, s.hit + p)), di, s.hit + p);
+      if (!hn::AllFalse(di, covered)) {
+        const int p = y * tile_side + x;
+        const Real k = min(max(fma(first_lanes() + (x - x0), kx, k_row), kmin), kmax);
+        const Real before = load(s.nearness + p);
+        const auto nearer = hn::And(hn::RebindMask(df, covered), hn::Gt(k.v, before.v));
+        hn::StoreU(hn::IfThenElse(nearer, k.v, before.v), df, s.nearness + p);
+        hn::StoreU(hn::IfThenElse(hn::RebindMask(di, nearer), id, hn::LoadU(di, s.hit + p)), di, s.hit + p);
+      }
+      for (int k = 0; k < 3; ++k) at[k] += static_cast<std::int64_t>(t.a[k]) * lanes;
     }
+    for (int k = 0; k < 3; ++k) edge[k] += t.b[k];
   }
 }
 
-HWY_INLINE Real gather(const float* p, IntVec index, int offset) { return hn::GatherIndex(Floats(), p + offset, index); }
-HWY_INLINE Real3 gather3(const float* p, IntVec index) { return {gather(p, index, 0), gather(p, index, 1), gather(p, index, 2)}; }
+// The corners of each lane's triangle: positions and normals of a, b, c, and its material.
+struct LaneTriangles {
+  Real position[9], normal[9], material;
+};
+
+// Neighbouring pixels mostly see the same triangle: each different one is read once, for all lanes that see it.
+HWY_INLINE LaneTriangles lane_triangles(const VisibilityTile& s, const std::int32_t* hits) {
+  const Ints di;
+  const IntVec hit = hn::LoadU(di, hits);
+  LaneTriangles found;
+  for (int k = 0; k < 9; ++k) found.position[k] = 1.0, found.normal[k] = 0.0;
+  found.material = -1.0;
+  auto waiting = hn::Gt(hit, hn::Set(di, -1));
+  while (!hn::AllFalse(di, waiting)) {
+    const std::int32_t first = hits[hn::FindFirstTrue(di, waiting)];
+    const auto same = hn::Eq(hit, hn::Set(di, first));
+    const Mask here{hn::RebindMask(Floats(), same)};
+    const std::uint32_t* corners = s.triangles + static_cast<std::ptrdiff_t>(first) * 4;
+    for (int corner = 0; corner < 3; ++corner) {
+      const float* p = s.positions + static_cast<std::ptrdiff_t>(corners[corner]) * 3;
+      const float* n = s.normals + static_cast<std::ptrdiff_t>(corners[corner]) * 3;
+      for (int c = 0; c < 3; ++c) {
+        found.position[corner * 3 + c] = select(here, p[c], found.position[corner * 3 + c]);
+        found.normal[corner * 3 + c] = select(here, n[c], found.normal[corner * 3 + c]);
+      }
+    }
+    found.material = select(here, static_cast<float>(corners[3]), found.material);
+    waiting = hn::AndNot(same, waiting);
+  }
+  return found;
+}
 
 // Distance, normal and material of the triangle found on each pixel.
 void resolve(const VisibilityTile& s) {
-  const Ints di;
-  const auto* corners = reinterpret_cast<const std::int32_t*>(s.triangles);
-  for (int p = 0; p < tile_pixels; p += lanes) {
-    const IntVec hit = hn::LoadU(di, s.hit + p);
-    const auto found = hn::Gt(hit, hn::Set(di, -1));
+  for (int i = 0; i < tile_pixels; i += lanes) {
+    const Mask seen{hn::RebindMask(Floats(), hn::Gt(hn::LoadU(Ints(), s.hit + i), hn::Set(Ints(), -1)))};
     Real distance = 1e30, material = -1.0;
     Real3 n{0.0, 0.0, 0.0};
-    if (!hn::AllFalse(di, found)) {
-      const Mask seen{hn::RebindMask(Floats(), found)};
-      const IntVec row = hn::ShiftLeft<2>(hn::Max(hit, hn::Zero(di)));  // a lane without a hit looks at the first triangle
-      const IntVec three = hn::Set(di, 3);
-      const IntVec ia = hn::Mul(hn::GatherIndex(di, corners, row), three);
-      const IntVec ib = hn::Mul(hn::GatherIndex(di, corners + 1, row), three);
-      const IntVec ic = hn::Mul(hn::GatherIndex(di, corners + 2, row), three);
-      const Real3 a = gather3(s.positions, ia), b = gather3(s.positions, ib), c = gather3(s.positions, ic);
-      const Real3 d = pixel_rays(*s.view, s.tile, p);
+    if (any_lane(seen)) {
+      const LaneTriangles t = lane_triangles(s, s.hit + i);
+      const Real *p = t.position, *q = t.normal;
+      const Real3 d = pixel_rays(*s.view, s.tile, i);
       Real at, wb, wc;
-      ray_triangle(d.x, d.y, d.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, at, wb, wc);
-      const Real3 na = gather3(s.normals, ia), nb = gather3(s.normals, ib), nc = gather3(s.normals, ic);
-      shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, n.x, n.y, n.z);
+      ray_triangle(d.x, d.y, d.z, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], at, wb, wc);
+      shading_normal(d.x, d.y, d.z, q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[8], wb, wc, n.x, n.y, n.z);
       distance = select(seen, at, distance);
       n = {select(seen, n.x, 0.0), select(seen, n.y, 0.0), select(seen, n.z, 0.0)};
-      material = select(seen, hn::ConvertTo(Floats(), hn::GatherIndex(di, corners + 3, row)), material);
+      material = t.material;
     }
-    store(distance, s.distance + p);
-    store(n.x, s.normal[0] + p);
-    store(n.y, s.normal[1] + p);
-    store(n.z, s.normal[2] + p);
-    store(material, s.material + p);
+    store(distance, s.distance + i);
+    store(n.x, s.normal[0] + i);
+    store(n.y, s.normal[1] + i);
+    store(n.z, s.normal[2] + i);
+    store(material, s.material + i);
   }
 }
 
