@@ -1,0 +1,33 @@
+// The GLSL build of the formulas (common/formulas/README.md): real is float.
+#define real float
+#define mask bool
+#define table int
+#define FORMULA
+#define OUT(type) out type
+
+// Every float table of a step lies in this buffer; a `table` is where it begins.
+layout(std430, binding = 0) readonly buffer Tables { float table_values[]; };
+
+bool any_lane(mask m) { return m; }
+real select(mask m, real a, real b) { return m ? a : b; }
+real round_even(real x) { return roundEven(x); }
+real exp2_int(real n) { return intBitsToFloat((int(n) + 127) << 23); }
+real exponent_of(real x) { return float((floatBitsToInt(x) >> 23) - 127); }
+real mantissa_of(real x) { return intBitsToFloat((floatBitsToInt(x) & 0x007fffff) | 0x3f800000); }
+real fetch(table t, real i) { return table_values[t + int(i)]; }
+real element(table t, int i) { return table_values[t + i]; }
+int integer_element(table t, int i) { return int(table_values[t + i]); }
+
+// sum_ik a_i b_k t[at + i stride + k], i and k in 0..3.
+real weighted_row(int p, real b0, real b1, real b2, real b3) {
+  return fma(b0, table_values[p], fma(b1, table_values[p + 1], fma(b2, table_values[p + 2], b3 * table_values[p + 3])));
+}
+real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+  int p = t + int(at);
+  return fma(a0, weighted_row(p, b0, b1, b2, b3),
+             fma(a1, weighted_row(p + stride, b0, b1, b2, b3),
+                 fma(a2, weighted_row(p + 2 * stride, b0, b1, b2, b3), a3 * weighted_row(p + 3 * stride, b0, b1, b2, b3))));
+}
+
+#include "common/formulas/elementary.h"
+#include "common/formulas/formulas.h"

@@ -1,0 +1,10 @@
+# Writes OUTPUT, a C++ file with every file of FILES (names relative to ROOT, separated by commas) as a string.
+string(REPLACE "," ";" files "${FILES}")
+set(text "// Made by gpu/embed.cmake.\n#include \"gpu/shader_text.h\"\n\nnamespace airlight {\n\n")
+string(APPEND text "std::optional<std::string_view> embedded_shader_file(std::string_view name) {\n")
+foreach(file IN LISTS files)
+  file(READ "${ROOT}/${file}" content)
+  string(APPEND text "  if (name == \"${file}\") return R\"shader(${content})shader\";\n")
+endforeach()
+string(APPEND text "  return std::nullopt;\n}\n\n}  // namespace airlight\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,34 @@
+// What every per-pixel shader shares: one invocation a pixel, the view, the lights.
+
+layout(local_size_x = 16, local_size_y = 4) in;
+
+layout(std140, binding = 0) uniform ViewBlock {
+  vec4 view_right;    // w: width
+  vec4 view_up;       // w: height
+  vec4 view_forward;  // w: tangent of half the field of view
+  vec4 view_offset;   // xy: sub-pixel shift
+};
+
+const int most_lights = 512;
+struct Light {
+  vec4 vector_radius;      // position, or direction of travel
+  vec4 power_directional;  // w: 1 for a directional light
+};
+layout(std140, binding = 1) uniform LightBlock {
+  ivec4 light_count;
+  Light lights[most_lights];
+};
+
+bool outside(ivec2 p) {
+  return p.x >= int(view_right.w) || p.y >= int(view_up.w);
+}
+
+// Unit direction of a pixel's ray.
+vec3 pixel_ray(ivec2 p) {
+  float x = image_plane_x(float(p.x), view_offset.x, view_right.w, view_up.w, view_forward.w);
+  float y = image_plane_y(float(p.y), view_offset.y, view_up.w, view_forward.w);
+  vec3 d;
+  view_ray(x, y, view_right.x, view_right.y, view_right.z, view_up.x, view_up.y, view_up.z, view_forward.x, view_forward.y,
+           view_forward.z, d.x, d.y, d.z);
+  return d;
+}

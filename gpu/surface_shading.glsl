@@ -1,0 +1,68 @@
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+
+layout(binding = 0) uniform sampler2DArray distance_image;
+layout(binding = 1) uniform sampler2DArray normal_image;
+layout(binding = 2) uniform sampler2DArray material_image;
+layout(binding = 3) uniform sampler2DArray transmittance_image;
+layout(binding = 4) uniform sampler2DArray light_transmittance_image;
+layout(binding = 0, rgba32f) uniform writeonly image2DArray surface_image;
+layout(binding = 1, rgba32f) uniform writeonly image2DArray direct_image;
+layout(binding = 2, rgba32f) uniform writeonly image2DArray ambient_image;
+
+layout(std140, binding = 2) uniform Knobs {
+  vec4 ambient_extinction;
+  vec4 background;
+};
+
+// Seven floats a material: diffuse, specular, shininess.
+layout(std430, binding = 0) readonly buffer MaterialBlock { float materials[]; };
+
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (outside(p)) return;
+  ivec3 at = ivec3(p, 0);
+  float index = texelFetch(material_image, at, 0).x;
+  float through = texelFetch(transmittance_image, at, 0).x;
+  vec3 direct = vec3(0.0);
+  vec3 ambient = vec3(0.0);
+  if (index >= 0.0) {
+    int m = int(index) * 7;
+    vec3 diffuse_colour = vec3(materials[m], materials[m + 1], materials[m + 2]);
+    vec3 specular_colour = vec3(materials[m + 3], materials[m + 4], materials[m + 5]);
+    float shininess = materials[m + 6];
+    bool glossy = specular_colour != vec3(0.0);
+    vec3 d = pixel_ray(p);
+    vec3 n = texelFetch(normal_image, at, 0).xyz;
+    vec3 point = d * texelFetch(distance_image, at, 0).x;
+    vec3 mirror = d - n * (dot(n, d) * 2.0);
+    for (int k = 0; k < light_count.x; ++k) {
+      vec3 l = -lights[k].vector_radius.xyz;
+      float irradiance = 1.0;
+      if (lights[k].power_directional.w == 0.0) {
+        l = lights[k].vector_radius.xyz - point;
+        float length = sqrt(max(dot(l, l), 1e-37));
+        l = l * (1.0 / length);
+        irradiance = point_irradiance(length, lights[k].vector_radius.w, ambient_extinction.w);
+      }
+#ifdef WITH_LIGHT_TRANSMITTANCE
+      irradiance *= texelFetch(light_transmittance_image, ivec3(p, k), 0).x;
+#endif
+      float cosine = dot(n, l);
+      direct += diffuse_colour * (lambert(cosine) * irradiance) * lights[k].power_directional.xyz;
+      if (glossy) {
+        direct += specular_colour * (phong(cosine, dot(mirror, l), shininess) * irradiance) * lights[k].power_directional.xyz;
+      }
+    }
+    direct *= through;
+    ambient = diffuse_colour * ambient_extinction.xyz * through;
+  }
+  vec3 surface = index >= 0.0 ? direct + ambient : background.xyz * through;
+  imageStore(surface_image, at, vec4(surface, 0.0));
+#ifdef WITH_DIRECT
+  imageStore(direct_image, at, vec4(direct, 0.0));
+#endif
+#ifdef WITH_AMBIENT
+  imageStore(ambient_image, at, vec4(ambient, 0.0));
+#endif
+}

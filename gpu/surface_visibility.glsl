@@ -1,0 +1,79 @@
+// Three programs in one file: VERTEX and FRAGMENT find the nearest triangle on each pixel, RESOLVE computes what is seen of it.
+#include "gpu/dialect.glsl"
+
+#ifdef VERTEX
+layout(location = 0) in vec3 position;
+layout(std140, binding = 2) uniform Knobs {
+  vec4 right;    // w: x scale
+  vec4 up;       // w: y scale
+  vec4 forward;  // w: near plane
+  vec4 shift;    // xy: of the image, in clip space
+};
+// Reversed depth, near / z, and no far plane: the same relative precision at every distance.
+void main() {
+  float z = dot(position, forward.xyz);
+  gl_Position = vec4(dot(position, right.xyz) * right.w + shift.x * z, dot(position, up.xyz) * up.w + shift.y * z, forward.w, z);
+}
+#endif
+
+#ifdef FRAGMENT
+layout(location = 0) out uint hit;
+void main() { hit = uint(gl_PrimitiveID) + 1u; }
+#endif
+
+#ifdef RESOLVE
+#include "gpu/screen.glsl"
+layout(binding = 0) uniform usampler2D hit_image;
+layout(binding = 0, r32f) uniform writeonly image2DArray distance_image;
+layout(binding = 1, rgba32f) uniform writeonly image2DArray normal_image;
+layout(binding = 2, r32f) uniform writeonly image2DArray material_image;
+layout(std430, binding = 0) readonly buffer PositionBlock { float positions[]; };
+layout(std430, binding = 1) readonly buffer NormalBlock { float normals[]; };
+layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };
+
+vec3 position_of(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]); }
+vec3 normal_of(uint i) { return vec3(normals[3u * i], normals[3u * i + 1u], normals[3u * i + 2u]); }
+
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  if (outside(p)) return;
+  ivec3 at = ivec3(p, 0);
+  uint hit = texelFetch(hit_image, p, 0).x;
+  float dist = 1e30;
+  vec3 n = vec3(0.0);
+  float material = -1.0;
+  if (hit != 0u) {
+    uvec4 t = triangles[hit - 1u];
+    vec3 a = position_of(t.x);
+    vec3 b = position_of(t.y);
+    vec3 c = position_of(t.z);
+    vec3 d = pixel_ray(p);
+    float wb;
+    float wc;
+    ray_triangle(d.x, d.y, d.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, dist, wb, wc);
+    vec3 na = normal_of(t.x);
+    vec3 nb = normal_of(t.y);
+    vec3 nc = normal_of(t.z);
+    shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, n.x, n.y, n.z);
+    material = float(t.w);
+  }
+  imageStore(distance_image, at, vec4(dist));
+  imageStore(normal_image, at, vec4(n, 0.0));
+  imageStore(material_image, at, vec4(material));
+}
+#endif
+
+#ifdef INDICES
+// Three of each triangle's four numbers, as an index buffer.
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer TriangleBlock { uvec4 triangles[]; };
+layout(std430, binding = 1) writeonly buffer IndexBlock { uint indices[]; };
+layout(std140, binding = 2) uniform Knobs { uint count; };
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= count) return;
+  indices[3u * i] = triangles[i].x;
+  indices[3u * i + 1u] = triangles[i].y;
+  indices[3u * i + 2u] = triangles[i].z;
+}
+#endif
