@@ -219,7 +219,16 @@ Value parse(std::string_view text, const std::string& name) {
   constexpr unsigned flags = rapidjson::kParseInsituFlag | rapidjson::kParseCommentsFlag |
                              rapidjson::kParseNumbersAsStringsFlag | rapidjson::kParseValidateEncodingFlag;
   if (!reader.Parse<flags>(stream, builder)) {
-    throw InputError(message(name, Places(text).at(reader.GetErrorOffset()), explained(reader.GetParseErrorCode())));
+    // The reader stops inside a misspelt word; the place is its first letter.
+    std::size_t at = reader.GetErrorOffset();
+    const auto of_word = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '+'; };
+    if (reader.GetParseErrorCode() == rapidjson::kParseErrorValueInvalid) {
+      while (at > 0 && of_word(text[at - 1])) --at;
+    }
+    const bool line_end = reader.GetParseErrorCode() == rapidjson::kParseErrorStringEscapeInvalid && text[at] != '\\';
+    throw InputError(message(name, Places(text).at(at),
+                             line_end ? "a line end or control character in a string, expected '\"' before it"
+                                      : explained(reader.GetParseErrorCode())));
   }
   return std::move(builder.root);
 }
