@@ -1,0 +1,167 @@
+#include "common/reference/airlight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "common/formulas/double.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double black = 746;  // exp(-746) is 0 in double
+
+// Begin and end of each piece of 0..reach outside the shadows, cut at the breaks, as integrate() takes them.
+std::vector<double> pieces_of(const std::vector<Interval>& shadows, std::vector<double> breaks, double reach) {
+  std::sort(breaks.begin(), breaks.end());
+  std::vector<double> pieces;
+  const auto add_lit = [&](double begin, double end) {
+    double at = begin;
+    for (const double cut : breaks) {
+      // Cuts closer than rounding matters would only make empty pieces.
+      if (cut <= at * (1 + 1e-13) || cut <= at + 1e-300) continue;
+      if (cut >= end * (1 - 1e-13)) break;
+      pieces.insert(pieces.end(), {at, cut});
+      at = cut;
+    }
+    if (at < end) pieces.insert(pieces.end(), {at, end});
+  };
+  double lit_from = 0;
+  for (const Interval& s : shadows) {
+    if (lit_from < std::min(s.first, reach)) add_lit(lit_from, std::min(s.first, reach));
+    lit_from = std::max(lit_from, s.second);
+  }
+  if (lit_from < reach) add_lit(lit_from, reach);
+  return pieces;
+}
+
+}  // namespace
+
+Medium relative_medium(const Medium& medium, const glm::dvec3& camera) {
+  Medium relative = medium;
+  for (Gaussian& g : relative.gaussians) g.center -= camera;
+  return relative;
+}
+
+double depth_to_light(const Medium& medium, const glm::dvec3& point, const RelativeLight& light, double length) {
+  if (light.directional) return optical_depth(medium.gaussians, point, -light.vector, infinity);
+  return medium.extinction * length + optical_depth(medium.gaussians, point, light.vector);
+}
+
+RayInMedium::RayInMedium(const Medium& medium, const glm::dvec3& direction, double length)
+    : medium_(medium), direction_(direction), length_(length) {
+  double most = 0, end = 0;
+  for (const Gaussian& g : medium.gaussians) {
+    const OnRay on_ray{GaussianOnLine(g, glm::dvec3(0), direction), &g};
+    const double depth = on_ray.line.depth(0, length);
+    if (!(depth > 0)) continue;
+    on_ray_.push_back(on_ray);
+    most = std::max(most, depth);
+    end = std::max(end, on_ray.line.foot + 27.5 * g.radius);  // exp(-27.5^2) is 0 in double
+  }
+  // A Gaussian this much thinner than another is below rounding, even one next to the light (1/r^2 up to 1e12 in metres).
+  std::erase_if(on_ray_, [&](const OnRay& o) { return o.line.depth(0, length) < 1e-30 * most; });
+  reach_ = std::min(length, medium.extinction > 0 ? black / medium.extinction : end);
+}
+
+double RayInMedium::depth(double t) const {
+  double sum = medium_.extinction > 0 ? medium_.extinction * t : 0;
+  for (const OnRay& o : on_ray_) sum += o.line.depth(0, t);
+  return sum;
+}
+
+glm::dvec3 RayInMedium::scattering(double t) const {
+  glm::dvec3 sum = medium_.extinction * medium_.albedo;
+  for (const OnRay& o : on_ray_) sum += o.line.density(t) * o.gaussian->albedo;
+  return sum;
+}
+
+// Where what the ray passes changes: along the fade of the homogeneous part, and across each Gaussian.
+std::vector<double> RayInMedium::breaks() const {
+  std::vector<double> t;
+  for (const double depth : {0.3, 1.0, 3.0, 10.0, 40.0, 150.0}) {
+    if (medium_.extinction > 0) t.push_back(depth / medium_.extinction);
+  }
+  for (const OnRay& o : on_ray_) {
+    for (const double radii : {-8.0, -3.0, -1.0, 0.0, 1.0, 3.0, 8.0}) t.push_back(o.line.foot + radii / o.line.a);
+  }
+  return t;
+}
+
+// Where the way to the light changes: at its foot, along the fade from there, and where the ray passes behind a Gaussian.
+void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std::vector<double>& t) const {
+  if (!light.directional) {
+    t.push_back(foot);
+    for (const double depth : {1.0, 10.0}) {
+      if (medium_.extinction > 0) t.insert(t.end(), {foot - depth / medium_.extinction, foot + depth / medium_.extinction});
+    }
+  }
+  const glm::dvec3 to_light = light.directional ? -light.vector : light.vector;
+  const double along = glm::dot(direction_, to_light);
+  const glm::dvec3 across = to_light - along * direction_;
+  const double height = glm::length(across);
+  if (!(height > 1e-12 * glm::length(to_light))) return;
+  for (const Gaussian& g : medium_.gaussians) {
+    const double y = glm::dot(g.center, across) / height;
+    if (y <= 0 || (!light.directional && y >= height)) continue;
+    for (const double radii : {-4.0, -1.5, 0.0, 1.5, 4.0}) {
+      const double x = glm::dot(g.center, direction_) + radii * g.radius;
+      t.push_back(light.directional ? x - y * along / height : along + (x - along) * (height / (height - y)));
+    }
+  }
+}
+
+Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<Interval>& shadow, double tolerance) const {
+  if (light.power == glm::dvec3(0) || !(reach_ > 0)) return {};
+  const int kind = static_cast<int>(medium_.phase.kind);
+  const auto g = static_cast<double>(medium_.phase.g);
+  Integral sum;
+  if (light.directional) {
+    std::vector<double> t = breaks();
+    add_light_breaks(light, 0, t);
+    const double phase = f64::phase_value(kind, g, -glm::dot(light.vector, direction_));
+    sum = integrate(
+        [&](double x) {
+          const double tau = depth(x) + depth_to_light(medium_, x * direction_, light, 0);
+          return phase * std::exp(-tau) * scattering(x);
+        },
+        pieces_of(shadow, t, reach_), tolerance);
+  } else {
+    // t = foot + h sinh(s) takes the peak of 1/r^2 away: r = h cosh(s), dt/r^2 = ds / r; and no digits are lost far from it.
+    const double foot = glm::dot(direction_, light.vector);
+    const double h = std::max(glm::length(light.vector - foot * direction_), light.radius);
+    std::vector<double> t = breaks();
+    add_light_breaks(light, foot, t);
+    std::vector<double> pieces = pieces_of(shadow, t, reach_);
+    for (double& end : pieces) end = std::asinh((end - foot) / h);
+    sum = integrate(
+        [&](double s) {
+          const double x = foot + h * std::sinh(s), r = h * std::cosh(s);
+          const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, x * direction_, light, r);
+          return f64::phase_value(kind, g, -std::tanh(s)) * std::exp(-tau) / r * scattering(x);
+        },
+        pieces, tolerance);
+  }
+  return {sum.value * light.power, sum.error * light.power};
+}
+
+Integral RayInMedium::emitted(double tolerance) const {
+  bool any = medium_.emission != glm::dvec3(0);
+  for (const OnRay& o : on_ray_) any = any || o.gaussian->emission != glm::dvec3(0);
+  if (!any) return {};
+  Integral sum = integrate(
+      [&](double t) {
+        glm::dvec3 source = medium_.emission;
+        for (const OnRay& o : on_ray_) source += o.line.density(t) / o.line.c * o.gaussian->emission;
+        return std::exp(-depth(t)) * source;
+      },
+      pieces_of({}, breaks(), reach_), tolerance);
+  // Without extinction of its own the homogeneous part goes on glowing behind the last Gaussian; infinity is 1e30 as elsewhere.
+  if (!(medium_.extinction > 0)) sum.value += (std::min(length_, 1e30) - reach_) * std::exp(-depth()) * medium_.emission;
+  return sum;
+}
+
+}  // namespace airlight

@@ -1,0 +1,52 @@
+// What the medium adds to a view ray and takes from it, by quadrature in double. Independent of common/formulas/airlight.h and its
+// tables: nothing here knows the boundary functions.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/reference/optical_depth.h"
+#include "common/reference/quadrature.h"
+#include "common/reference/visibility.h"
+#include "common/scene/scene.h"
+
+namespace airlight {
+
+// The medium relative to the camera.
+Medium relative_medium(const Medium&, const glm::dvec3& camera);
+
+// A view ray from the camera through the medium.
+class RayInMedium {
+ public:
+  // `medium` (relative to the camera) must outlive this; unit direction; length [m], may be infinite.
+  RayInMedium(const Medium& medium, const glm::dvec3& direction, double length);
+
+  double depth(double t) const;      // T(camera, t) [1]; infinite where it is
+  double depth() const { return depth(length_); }
+  double reach() const { return reach_; }  // [m] no farther than the length: beyond it nothing scatters toward the camera
+
+  // Single scattering of one light where it is not in `shadow` (common/reference/visibility.h) [W/m^2/sr].
+  Integral scattered(const RelativeLight&, const std::vector<Interval>& shadow, double tolerance) const;
+
+  // Emission of the homogeneous part and the Gaussians [W/m^2/sr].
+  Integral emitted(double tolerance) const;
+
+ private:
+  struct OnRay {
+    GaussianOnLine line;
+    const Gaussian* gaussian;
+  };
+  glm::dvec3 scattering(double t) const;  // sigma_s [1/m]
+  std::vector<double> breaks() const;
+  void add_light_breaks(const RelativeLight&, double foot, std::vector<double>&) const;
+
+  const Medium& medium_;
+  glm::dvec3 direction_;
+  double length_ = 0, reach_ = 0;
+  std::vector<OnRay> on_ray_;  // those that are not negligible
+};
+
+// Optical depth from a point to the light: Gaussians always, the homogeneous part for point lights only, over `length` [m].
+double depth_to_light(const Medium&, const glm::dvec3& point, const RelativeLight&, double length);
+
+}  // namespace airlight

@@ -1,0 +1,129 @@
+#include "common/reference/pixel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "common/formulas/double.h"
+
+namespace airlight {
+
+Reference::Reference(const Scene& scene, const ReferenceSettings& settings)
+    : scene_(scene), medium_(relative_medium(scene.medium, scene.camera.position)), settings_(settings), visibility_(scene) {
+  for (const LightSource& l : scene.lights) lights_.emplace_back(l, scene.camera.position);
+  forward_ = glm::normalize(scene.camera.look_at - scene.camera.position);
+  right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
+  up_ = glm::cross(right_, forward_);
+  tan_half_fov_ = std::tan(scene.camera.vertical_fov * std::numbers::pi / 360);
+}
+
+glm::dvec3 Reference::direction(glm::dvec2 at, Extent extent) const {
+  const double x = f64::image_plane_x(at.x, -0.5, extent.width, extent.height, tan_half_fov_);
+  const double y = f64::image_plane_y(at.y, -0.5, extent.height, tan_half_fov_);
+  return glm::normalize(x * right_ + y * up_ + forward_);
+}
+
+Reference::Seen Reference::look(const glm::dvec3& d) const {
+  Seen seen;
+  seen.direction = d;
+  const double near_plane = static_cast<double>(View{}.near_plane) / glm::dot(d, forward_);
+  const auto hit = visibility_.nearest(d, near_plane);
+  if (!hit) return seen;
+  const Triangles& all = visibility_.triangles();
+  const auto& t = all[hit->triangle];
+  const glm::dvec3 a = all.position(t, 0), b = all.position(t, 1), c = all.position(t, 2);
+  seen.hit = true;
+  seen.distance = hit->distance;
+  seen.triangle = hit->triangle;
+  seen.surface = static_cast<int>(t.surface);
+  seen.point = d * hit->distance;
+
+  // Weights of the corners: volumes beside the opposite edges.
+  const double u = glm::dot(d, glm::cross(b, c)), v = glm::dot(d, glm::cross(c, a)), w = glm::dot(d, glm::cross(a, b));
+  const double wb = v / (u + v + w), wc = w / (u + v + w);
+  const glm::dvec3 na = all.normal(t, 0), nb = all.normal(t, 1), nc = all.normal(t, 2);
+  f64::shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, seen.normal.x,
+                      seen.normal.y, seen.normal.z);
+  seen.face = glm::normalize(glm::cross(b - a, c - a));
+  return seen;
+}
+
+bool Reference::lit(const Seen& seen, const RelativeLight& light) const {
+  const glm::dvec3 way = light.directional ? -light.vector : light.vector - seen.point;
+  if (!(glm::dot(seen.normal, way) > 0)) return false;
+  return !settings_.shadows || !visibility_.blocked(seen.point, seen.triangle, light);
+}
+
+// On a facing plane, per unit of the light's power.
+double Reference::irradiance(const Seen& seen, const RelativeLight& light) const {
+  if (!lit(seen, light)) return 0;
+  const double length = light.directional ? 0 : glm::length(light.vector - seen.point);
+  const double r = std::max(length, light.radius);
+  return std::exp(-depth_to_light(medium_, seen.point, light, length)) / (light.directional ? 1 : r * r);
+}
+
+void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pixel) const {
+  if (!seen.hit) {
+    pixel.surface = pixel.transmittance * scene_.background;
+    return;
+  }
+  const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
+  const glm::dvec3 mirror = d - 2 * glm::dot(d, seen.normal) * seen.normal;
+  for (const RelativeLight& light : lights_) {
+    const double e = irradiance(seen, light);
+    if (!(e > 0)) continue;
+    const glm::dvec3 to_light = glm::normalize(light.directional ? -light.vector : light.vector - seen.point);
+    const double cosine = glm::dot(seen.normal, to_light);
+    const glm::dvec3 reflection =
+        f64::lambert(cosine) * glm::dvec3(material.diffuse) +
+        f64::phong(cosine, glm::dot(mirror, to_light), static_cast<double>(material.shininess)) * glm::dvec3(material.specular);
+    pixel.surface_direct += e * light.power * reflection;
+  }
+  if (!medium_.empty()) pixel.surface_ambient = glm::dvec3(material.diffuse) * medium_.ambient;
+  pixel.surface_direct *= pixel.transmittance;
+  pixel.surface_ambient *= pixel.transmittance;
+  pixel.surface = pixel.surface_direct + pixel.surface_ambient;
+}
+
+ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferenceParts& parts) const {
+  const glm::dvec3 d = direction(at, extent);
+  const Seen seen = look(d);
+  ReferencePixel pixel;
+  pixel.depth = seen.distance;
+  pixel.normal = seen.normal;
+  pixel.surface_index = seen.surface;
+  const double sky = scene_.sky_distance < 1e30 ? scene_.sky_distance : std::numeric_limits<double>::infinity();
+  const RayInMedium ray(medium_, d, seen.hit ? seen.distance : sky);
+  const double tau = ray.depth();
+  pixel.optical_depth = std::min(tau, 1e30);
+  pixel.transmittance = std::exp(-tau);
+  if (parts.surface) shade(d, seen, pixel);
+  if (!parts.airlight) return pixel;
+
+  glm::dvec3 error(0);
+  for (const RelativeLight& light : lights_) {
+    const auto shadow = settings_.shadows ? visibility_.shadows(d, ray.reach(), light) : std::vector<Interval>();
+    const Integral part = ray.scattered(light, shadow, settings_.tolerance);
+    pixel.airlight_of_light.push_back(part.value);
+    pixel.airlight += part.value;
+    error += part.error;
+  }
+  const Integral emitted = ray.emitted(settings_.tolerance);
+  pixel.airlight += emitted.value - std::expm1(-tau) * medium_.ambient;
+  error += emitted.error;
+  for (int c = 0; c < 3; ++c) {
+    if (error[c] > 0) pixel.error = std::max(pixel.error, error[c] / pixel.beauty()[c]);
+  }
+  return pixel;
+}
+
+std::vector<Interval> Reference::shadows(glm::dvec2 at, Extent extent, std::size_t light) const {
+  const glm::dvec3 d = direction(at, extent);
+  const Seen seen = look(d);
+  const RayInMedium ray(medium_, d, seen.hit ? seen.distance : scene_.sky_distance);
+  return visibility_.shadows(d, ray.reach(), lights_.at(light));
+}
+
+}  // namespace airlight

@@ -1,0 +1,82 @@
+// Single pixels of the truth, in double.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/image.h"
+#include "common/reference/airlight.h"
+#include "common/reference/visibility.h"
+#include "common/scene/scene.h"
+
+namespace airlight {
+
+struct ReferenceSettings {
+  double tolerance = 1e-7;  // relative, of each light's integral along a ray: 1e-12..1e-2
+  bool shadows = true;      // off: V = 1 everywhere, on surfaces and in the medium
+};
+
+struct ReferencePixel {
+  double depth = 1e30;           // [m] along the ray; 1e30 where nothing is hit
+  glm::dvec3 normal{0};          // unit, turned to the viewer; 0 where nothing is hit
+  int surface_index = -1;        // in Scene::surfaces; -1 where nothing is hit
+  double optical_depth = 0;      // to the surface or over sky_distance; 1e30 where it is infinite
+  double transmittance = 1;      // 0..1
+  glm::dvec3 surface{0};         // [W/m^2/sr] as it reaches the camera: direct + ambient, or the background
+  glm::dvec3 surface_direct{0}, surface_ambient{0};
+  glm::dvec3 airlight{0};        // [W/m^2/sr] all lights, ambient and emission
+  std::vector<glm::dvec3> airlight_of_light;
+  double error = 0;              // estimated relative error of the worst channel of surface + airlight
+
+  glm::dvec3 beauty() const { return surface + airlight; }
+};
+
+// What a pixel needs beyond visibility.
+struct ReferenceParts {
+  bool surface = true, airlight = true;
+};
+
+// The truth about one scene; const calls may come from any thread. Definitions: single scattering by point and directional lights in the
+// homogeneous medium and Gaussians, direct light on surfaces, r_l as the least distance to a point light. Emission of a Gaussian is its
+// `emission` times exp(-|x-center|^2 / radius^2).
+class Reference {
+ public:
+  explicit Reference(const Scene&, const ReferenceSettings& = {});
+
+  // (x, y) in pixels from the left and the top, centres at + 0.5.
+  ReferencePixel pixel(glm::dvec2 at, Extent, const ReferenceParts& = {}) const;
+
+  // Whether depth, normal, material or a light's shadow on the surface jumps within 1/100 pixel of the point.
+  bool edge(glm::dvec2 at, Extent) const;
+
+  // The parts of a pixel's ray that light `light` does not reach.
+  std::vector<Interval> shadows(glm::dvec2 at, Extent, std::size_t light) const;
+
+ private:
+  struct Seen;
+  glm::dvec3 direction(glm::dvec2 at, Extent) const;
+  Seen look(const glm::dvec3& direction) const;
+  double irradiance(const Seen&, const RelativeLight&) const;
+  bool lit(const Seen&, const RelativeLight&) const;
+  bool jumps(const Seen& here, const Seen& there, double pixel_angle) const;
+  void shade(const glm::dvec3& direction, const Seen&, ReferencePixel&) const;
+
+  Scene scene_;
+  Medium medium_;
+  ReferenceSettings settings_;
+  std::vector<RelativeLight> lights_;
+  Visibility visibility_;
+  glm::dvec3 right_, up_, forward_;
+  double tan_half_fov_ = 0;
+};
+
+struct Reference::Seen {
+  bool hit = false;
+  double distance = 1e30;
+  std::uint32_t triangle = 0;
+  int surface = -1;
+  glm::dvec3 direction{0}, point{0}, normal{0}, face{0};  // face: the triangle's own unit normal, either way
+};
+
+}  // namespace airlight

@@ -1,0 +1,34 @@
+// Ground truth: single scattering in double precision (technique `reference`; knobs in common/techniques/reference.h).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/image.h"
+#include "common/progress.h"
+#include "common/reference/pixel.h"
+#include "common/scene/scene.h"
+#include "common/stats.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+// A whole image in double, rows from the top.
+struct ReferenceFrame {
+  Extent extent;
+  std::vector<ReferencePixel> pixels;
+  std::vector<bool> edges;  // empty unless asked for: Reference::edge() of each pixel
+  double error = 0;         // largest ReferencePixel::error
+
+  double edge_share() const;  // 0..1
+};
+
+// The same bits for any number of threads. Throws Interrupted when asked to stop.
+ReferenceFrame reference_frame(const Scene&, Extent, const ReferenceSettings&, bool with_edges, int threads, Progress&);
+
+// The images of the request by name, as any technique gives them; "edge" (1 or 0) too where it is asked for. In `stats` one step,
+// "reference".
+std::map<std::string, HostImage> render_reference(const Scene&, const FrameRequest&, int threads, Stats&, Progress&);
+
+}  // namespace airlight

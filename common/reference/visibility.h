@@ -1,0 +1,58 @@
+// What stands where: nearest hits, blocked light, and the parts of a view ray that lie in shadow; all in double.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/reference/triangles.h"
+#include "common/scene/scene.h"
+
+namespace airlight {
+
+struct Hit {
+  double distance = 0;  // [m]
+  std::uint32_t triangle = 0;
+};
+
+// [begin, end] on a ray, in metres from its origin; either may be infinite.
+using Interval = std::pair<double, double>;
+
+// A light relative to the camera. `vector`: position of a point light, unit direction of travel of a directional one.
+struct RelativeLight {
+  glm::dvec3 vector{0}, power{0};
+  double radius = 1e-3;  // [m]
+  bool directional = false;
+
+  RelativeLight(const LightSource&, const glm::dvec3& camera);
+};
+
+class Visibility {
+ public:
+  explicit Visibility(const Scene&);
+
+  const Triangles& triangles() const { return triangles_; }
+
+  // The nearest triangle on a ray from the camera along a unit direction, no nearer than `from` [m]. Edges belong to both their triangles, so that
+  // no ray slips between two of them; of equal distances the lower triangle wins.
+  std::optional<Hit> nearest(const glm::dvec3& direction, double from) const;
+
+  // Whether a caster other than triangle `own` stands between a surface point and the light.
+  bool blocked(const glm::dvec3& point, std::uint32_t own, const RelativeLight&) const;
+
+  // The parts of the ray (camera, unit direction, 0..length) that casters keep the light from: sorted, disjoint, clipped to it.
+  // Exact: each triangle cuts the plane through ray and light in a segment, which the light projects onto the ray.
+  std::vector<Interval> shadows(const glm::dvec3& direction, double length, const RelativeLight&) const;
+
+ private:
+  std::vector<Interval> shadows_along_light(const glm::dvec3& direction, const RelativeLight&, double foot) const;
+  bool casts(std::uint32_t triangle) const { return casts_[triangles_[triangle].surface]; }
+
+  Triangles triangles_;
+  std::vector<bool> casts_;  // a surface each
+  bool any_caster_ = false;
+};
+
+}  // namespace airlight
