@@ -15,6 +15,7 @@ static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& v
   const float* distance = view.plane(a.distance);
   const float* tables = view.floats(a.tables);
   const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
   const bool scatters = a.extinction > 0;
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance);
@@ -29,11 +30,11 @@ static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& v
       Real once = 0.0;
       if (light.directional) {
         const Real mu = -dot(real3(light.vector), d);
-        once = directional_airlight(kind, a.phase.g, a.extinction, mu, 0.0, length);
+        once = directional_airlight(kind, g, a.extinction, mu, 0.0, length);
       } else if (scatters) {
         Real foot, h;
         perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-        once = point_airlight(tables, kind, a.phase.g, a.extinction, foot, h, 0.0, length);
+        once = point_airlight(tables, kind, g, a.extinction, foot, h, 0.0, length);
       }
       for (int c = 0; c < 3; ++c) {
         const Real scattered = once * (light.power[c] * a.albedo[c]);

@@ -32,14 +32,15 @@ class TriangleSetup::Projection {
       return static_cast<double>(axis.x) * static_cast<double>(p[0]) + static_cast<double>(axis.y) * static_cast<double>(p[1]) +
              static_cast<double>(axis.z) * static_cast<double>(p[2]);
     };
-    return project({along(view_.right), along(view_.up), along(view_.forward), 0, 0, false});
+    return project({along(view_.right), along(view_.up), along(view_.forward)});
   }
 
   Vertex project(Vertex v) const {
     v.inside = v.z >= near();
     if (!v.inside) return v;
-    const double px = v.x / v.z * scale_ + view_.extent.width * 0.5 - static_cast<double>(view_.offset.x);
-    const double py = -v.y / v.z * scale_ + view_.extent.height * 0.5 - static_cast<double>(view_.offset.y);
+    v.nearness = 1 / v.z;
+    const double px = v.x * v.nearness * scale_ + view_.extent.width * 0.5 - static_cast<double>(view_.offset.x);
+    const double py = -v.y * v.nearness * scale_ + view_.extent.height * 0.5 - static_cast<double>(view_.offset.y);
     v.inside = std::fabs(px) <= guard && std::fabs(py) <= guard;
     if (!v.inside) return v;
     v.sx = static_cast<std::int32_t>(std::nearbyint(px * subpixel));
@@ -94,9 +95,8 @@ void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, cons
   const double wx = v2.x - v0.x, wy = v2.y - v0.y, wz = v2.z - v0.z;
   const double nx = uy * wz - uz * wy, ny = uz * wx - ux * wz, nz = ux * wy - uy * wx;
   const double plane = nx * v0.x + ny * v0.y + nz * v0.z;
-  const double z_min = std::min(v0.z, std::min(v1.z, v2.z)), z_max = std::max(v0.z, std::max(v1.z, v2.z));
-  t.kmin = static_cast<float>(1 / z_max);
-  t.kmax = static_cast<float>(1 / z_min);
+  t.kmin = static_cast<float>(std::min(v0.nearness, std::min(v1.nearness, v2.nearness)));
+  t.kmax = static_cast<float>(std::max(v0.nearness, std::max(v1.nearness, v2.nearness)));
   const double inverse = 1 / plane;
   t.kx = nx * projection.step * inverse;
   t.ky = -ny * projection.step * inverse;
@@ -134,7 +134,7 @@ void TriangleSetup::clip(const Projection& projection, TriangleChunk& chunk, con
       const bool turn = std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
       const Vertex &a = turn ? to : from, &b = turn ? from : to;
       const double da = turn ? d1 : d0, db = turn ? d0 : d1, s = da / (da - db);
-      next[m++] = {a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s, 0, 0, false};
+      next[m++] = {a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, a.z + (b.z - a.z) * s};
     }
     polygon = next;
     n = m;

@@ -43,8 +43,9 @@ class TriangleSetup {
   // In the camera's frame: right, up, forward [m], and on the screen [1/256 pixel].
   struct Vertex {
     double x, y, z;
-    std::int32_t sx, sy;
-    bool inside;  // in front of the near plane and within the guard band
+    double nearness = 0;  // 1/z
+    std::int32_t sx = 0, sy = 0;
+    bool inside = false;  // in front of the near plane and within the guard band
   };
   class Projection;
 

@@ -4,14 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "gpu/backend.h"
 #include "gpu/functions.h"
 
 namespace airlight {
-
-struct GlOptions {
-  std::string context = "auto";  // auto | osmesa | egl. auto: EGL on the first hardware device where there is one, else OSMesa
-  int device = 0;                // which EGL device, in the order of its enumeration; other than 0 means EGL for auto
-};
 
 class GlContext {
  public:

@@ -5,8 +5,8 @@
 #define FORMULA
 #define OUT(type) out type
 
-// Every float table of a step lies in this buffer; a `table` is where it begins.
-layout(std430, binding = 0) readonly buffer Tables { float table_values[]; };
+// Every table of a step lies in this buffer; a `table` is where it begins.
+layout(std430, binding = 7) readonly buffer Tables { float table_values[]; };
 
 bool any_lane(mask m) { return m; }
 real select(mask m, real a, real b) { return m ? a : b; }

@@ -67,6 +67,7 @@
   X(Scissor, SCISSOR)                                               \
   X(ShaderSource, SHADERSOURCE)                                     \
   X(TextureBuffer, TEXTUREBUFFER)                                   \
+  X(TextureParameteri, TEXTUREPARAMETERI)                           \
   X(TextureStorage2D, TEXTURESTORAGE2D)                             \
   X(TextureStorage3D, TEXTURESTORAGE3D)                             \
   X(TextureSubImage3D, TEXTURESUBIMAGE3D)                           \

@@ -13,7 +13,7 @@ layout(std140, binding = 2) uniform Knobs {
 };
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = this_pixel();
   if (outside(p)) return;
   ivec3 at = ivec3(p, 0);
   float extinction = albedo_extinction.w;
@@ -22,17 +22,19 @@ void main() {
   vec3 d = pixel_ray(p);
   vec3 sum = ambient_sky_distance.xyz * opacity(tau) + emission_g.xyz * attenuated_length(length, extinction, tau);
   for (int k = 0; k < light_count.x; ++k) {
-    vec3 v = lights[k].vector_radius.xyz;
+    vec4 vector_radius = light_values[2 * k];
+    vec4 power_directional = light_values[2 * k + 1];
+    vec3 v = vector_radius.xyz;
     float once = 0.0;
-    if (lights[k].power_directional.w != 0.0) {
-      once = directional_airlight(phase_kind, emission_g.w, extinction, -dot(v, d), 0.0, length);
+    if (power_directional.w != 0.0) {
+      once = directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), 0.0, length);
     } else if (extinction > 0.0) {
       float foot;
       float h;
-      perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, lights[k].vector_radius.w, foot, h);
+      perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
       once = point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, 0.0, length);
     }
-    vec3 scattered = once * (lights[k].power_directional.xyz * albedo_extinction.xyz);
+    vec3 scattered = once * (power_directional.xyz * albedo_extinction.xyz);
 #ifdef WITH_PER_LIGHT
     imageStore(per_light_image, ivec3(p, k), vec4(scattered, 0.0));
 #endif

@@ -1,6 +1,7 @@
 // What every per-pixel shader shares: one invocation a pixel, the view, the lights.
 
 layout(local_size_x = 16, local_size_y = 4) in;
+uniform int first_row;  // of the band of rows that this dispatch covers
 
 layout(std140, binding = 0) uniform ViewBlock {
   vec4 view_right;    // w: width
@@ -9,19 +10,8 @@ layout(std140, binding = 0) uniform ViewBlock {
   vec4 view_offset;   // xy: sub-pixel shift
 };
 
-const int most_lights = 512;
-struct Light {
-  vec4 vector_radius;      // position, or direction of travel
-  vec4 power_directional;  // w: 1 for a directional light
-};
-layout(std140, binding = 1) uniform LightBlock {
-  ivec4 light_count;
-  Light lights[most_lights];
-};
-
-bool outside(ivec2 p) {
-  return p.x >= int(view_right.w) || p.y >= int(view_up.w);
-}
+ivec2 this_pixel() { return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, first_row); }
+bool outside(ivec2 p) { return p.x >= int(view_right.w) || p.y >= int(view_up.w); }
 
 // Unit direction of a pixel's ray.
 vec3 pixel_ray(ivec2 p) {
@@ -32,3 +22,19 @@ vec3 pixel_ray(ivec2 p) {
            view_forward.z, d.x, d.y, d.z);
   return d;
 }
+
+// The same order as in the CPU kernels.
+float dot3(vec3 a, vec3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+
+// Two vectors a light: position or direction of travel, and radius; power, and 1 for a directional light.
+#if defined(MOST_LIGHTS) || defined(MANY_LIGHTS)
+layout(std140, binding = 1) uniform LightBlock {
+  ivec4 light_count;
+#ifdef MOST_LIGHTS
+  vec4 light_values[2 * MOST_LIGHTS];
+#endif
+};
+#ifdef MANY_LIGHTS
+layout(std430, binding = 6) readonly buffer LightBuffer { vec4 light_values[]; };
+#endif
+#endif

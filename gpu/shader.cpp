@@ -41,8 +41,7 @@ struct Stage {
 
 }  // namespace
 
-Program::Program(const GlFunctions& gl, const std::vector<std::pair<GLenum, ShaderText>>& stages)
-    : gl_(gl), name_(gl.CreateProgram()) {
+Program::Program(const GlFunctions& gl, const Stages& stages) : gl_(gl), name_(gl.CreateProgram()) {
   try {
     for (const auto& [kind, source] : stages) {
       const Stage stage(gl_, kind, source);

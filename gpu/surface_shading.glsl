@@ -19,7 +19,7 @@ layout(std140, binding = 2) uniform Knobs {
 layout(std430, binding = 0) readonly buffer MaterialBlock { float materials[]; };
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = this_pixel();
   if (outside(p)) return;
   ivec3 at = ivec3(p, 0);
   float index = texelFetch(material_image, at, 0).x;
@@ -28,34 +28,34 @@ void main() {
   vec3 ambient = vec3(0.0);
   if (index >= 0.0) {
     int m = int(index) * 7;
-    vec3 diffuse_colour = vec3(materials[m], materials[m + 1], materials[m + 2]);
-    vec3 specular_colour = vec3(materials[m + 3], materials[m + 4], materials[m + 5]);
+    vec3 diffuse = vec3(materials[m], materials[m + 1], materials[m + 2]);
+    vec3 specular = vec3(materials[m + 3], materials[m + 4], materials[m + 5]);
     float shininess = materials[m + 6];
-    bool glossy = specular_colour != vec3(0.0);
+    bool glossy = specular != vec3(0.0);
     vec3 d = pixel_ray(p);
     vec3 n = texelFetch(normal_image, at, 0).xyz;
     vec3 point = d * texelFetch(distance_image, at, 0).x;
-    vec3 mirror = d - n * (dot(n, d) * 2.0);
+    vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
     for (int k = 0; k < light_count.x; ++k) {
-      vec3 l = -lights[k].vector_radius.xyz;
+      vec4 vector_radius = light_values[2 * k];
+      vec4 power_directional = light_values[2 * k + 1];
+      vec3 l = -vector_radius.xyz;
       float irradiance = 1.0;
-      if (lights[k].power_directional.w == 0.0) {
-        l = lights[k].vector_radius.xyz - point;
-        float length = sqrt(max(dot(l, l), 1e-37));
-        l = l * (1.0 / length);
-        irradiance = point_irradiance(length, lights[k].vector_radius.w, ambient_extinction.w);
+      if (power_directional.w == 0.0) {
+        l = vector_radius.xyz - point;
+        float length = sqrt(max(dot3(l, l), 1e-37));
+        l *= 1.0 / length;
+        irradiance = point_irradiance(length, vector_radius.w, ambient_extinction.w);
       }
 #ifdef WITH_LIGHT_TRANSMITTANCE
       irradiance *= texelFetch(light_transmittance_image, ivec3(p, k), 0).x;
 #endif
-      float cosine = dot(n, l);
-      direct += diffuse_colour * (lambert(cosine) * irradiance) * lights[k].power_directional.xyz;
-      if (glossy) {
-        direct += specular_colour * (phong(cosine, dot(mirror, l), shininess) * irradiance) * lights[k].power_directional.xyz;
-      }
+      float cosine = dot3(n, l);
+      direct += diffuse * (lambert(cosine) * irradiance) * power_directional.xyz;
+      if (glossy) direct += specular * (phong(cosine, unit_distance(mirror.x, mirror.y, mirror.z, l.x, l.y, l.z), shininess) * irradiance) * power_directional.xyz;
     }
     direct *= through;
-    ambient = diffuse_colour * ambient_extinction.xyz * through;
+    ambient = diffuse * ambient_extinction.xyz * through;
   }
   vec3 surface = index >= 0.0 ? direct + ambient : background.xyz * through;
   imageStore(surface_image, at, vec4(surface, 0.0));

@@ -1,4 +1,5 @@
-// Three programs in one file: VERTEX and FRAGMENT find the nearest triangle on each pixel, RESOLVE computes what is seen of it.
+// Four programs in one file: INDICES makes an index buffer, VERTEX and FRAGMENT find the nearest triangle on each pixel, RESOLVE computes
+// what is seen of it.
 #include "gpu/dialect.glsl"
 
 #ifdef VERTEX
@@ -17,13 +18,14 @@ void main() {
 #endif
 
 #ifdef FRAGMENT
+uniform int first_triangle;  // of this draw
 layout(location = 0) out uint hit;
-void main() { hit = uint(gl_PrimitiveID) + 1u; }
+void main() { hit = uint(first_triangle + gl_PrimitiveID) + 1u; }
 #endif
 
 #ifdef RESOLVE
 #include "gpu/screen.glsl"
-layout(binding = 0) uniform usampler2D hit_image;
+layout(binding = 0) uniform usampler2DArray hit_image;
 layout(binding = 0, r32f) uniform writeonly image2DArray distance_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray normal_image;
 layout(binding = 2, r32f) uniform writeonly image2DArray material_image;
@@ -35,11 +37,11 @@ vec3 position_of(uint i) { return vec3(positions[3u * i], positions[3u * i + 1u]
 vec3 normal_of(uint i) { return vec3(normals[3u * i], normals[3u * i + 1u], normals[3u * i + 2u]); }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = this_pixel();
   if (outside(p)) return;
   ivec3 at = ivec3(p, 0);
-  uint hit = texelFetch(hit_image, p, 0).x;
-  float dist = 1e30;
+  uint hit = texelFetch(hit_image, at, 0).x;
+  float along = 1e30;
   vec3 n = vec3(0.0);
   float material = -1.0;
   if (hit != 0u) {
@@ -50,30 +52,32 @@ void main() {
     vec3 d = pixel_ray(p);
     float wb;
     float wc;
-    ray_triangle(d.x, d.y, d.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, dist, wb, wc);
+    ray_triangle(d.x, d.y, d.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, along, wb, wc);
     vec3 na = normal_of(t.x);
     vec3 nb = normal_of(t.y);
     vec3 nc = normal_of(t.z);
     shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, n.x, n.y, n.z);
     material = float(t.w);
   }
-  imageStore(distance_image, at, vec4(dist));
+  imageStore(distance_image, at, vec4(along));
   imageStore(normal_image, at, vec4(n, 0.0));
   imageStore(material_image, at, vec4(material));
 }
 #endif
 
 #ifdef INDICES
-// Three of each triangle's four numbers, as an index buffer.
+// Three of each triangle's four numbers.
 layout(local_size_x = 64) in;
+uniform int first_item;
+uniform int items;
 layout(std430, binding = 0) readonly buffer TriangleBlock { uvec4 triangles[]; };
 layout(std430, binding = 1) writeonly buffer IndexBlock { uint indices[]; };
-layout(std140, binding = 2) uniform Knobs { uint count; };
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= count) return;
-  indices[3u * i] = triangles[i].x;
-  indices[3u * i + 1u] = triangles[i].y;
-  indices[3u * i + 2u] = triangles[i].z;
+  int i = first_item + int(gl_GlobalInvocationID.x);
+  if (i >= items) return;
+  uvec4 t = triangles[i];
+  indices[3 * i] = t.x;
+  indices[3 * i + 1] = t.y;
+  indices[3 * i + 2] = t.z;
 }
 #endif

@@ -11,7 +11,7 @@ layout(std140, binding = 2) uniform Knobs {
 };
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = this_pixel();
   if (outside(p)) return;
   ivec3 at = ivec3(p, 0);
   float tau = optical_depth(ray_length(texelFetch(distance_image, at, 0).x, sky_distance), extinction);

@@ -1,0 +1,160 @@
+#include "gpu/backend.h"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "common/plan/keys.h"
+#include "gpu/step_runner.h"
+
+namespace airlight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+class GlBackend final : public Backend {
+ public:
+  explicit GlBackend(const GlOptions& options) : context_(make_context(options)) {
+    const GlContext::Current current(*context_);
+    runner_ = std::make_unique<StepRunner>(*context_);
+    context_->gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
+    context_->gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  }
+  ~GlBackend() override {
+    const GlContext::Current current(*context_);
+    runner_.reset();
+  }
+
+  std::string describe() const override { return "gl, " + context_->describe(); }
+
+  void upload(Buffer buffer, std::span<const std::byte> bytes, std::uint64_t key) override {
+    const GlContext::Current current(*context_);
+    HeldBuffer& held = runner_->buffers[buffer];
+    held.key = 0;
+    if (!held.buffer) held.buffer = std::make_unique<GlBuffer>(context_->gl());
+    held.buffer->fill(bytes.size(), bytes.data());
+    check_gl(context_->gl(), "buffer upload");
+    held.key = key;
+  }
+
+  bool holds(Buffer buffer, std::uint64_t key) const override {
+    const auto held = runner_->buffers.find(buffer);
+    return held != runner_->buffers.end() && held->second.key == key;
+  }
+
+  void upload(const Image& image, std::span<const float> values, std::uint64_t key) override {
+    const GlContext::Current current(*context_);
+    HeldImage& held = prepare(image);
+    write_texture(context_->gl(), *held.texture, image, values);
+    held.key = key;
+  }
+
+  void download(const Image& image, std::span<float> values) override {
+    const GlContext::Current current(*context_);
+    const auto held = runner_->images.find(image);
+    if (held == runner_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
+    read_texture(context_->gl(), *held->second.texture, image, values);
+  }
+
+  void run(std::span<const Step>, Stats&, Progress&) override;
+
+ private:
+  std::uint64_t upload_key(Handle) const;
+  HeldImage& prepare(const Image&);
+  void release_transients();
+
+  std::unique_ptr<GlContext> context_;
+  std::unique_ptr<StepRunner> runner_;
+};
+
+std::uint64_t GlBackend::upload_key(Handle h) const {
+  std::uint64_t key = 0;
+  if (const auto b = runner_->buffers.find(h); b != runner_->buffers.end()) key = b->second.key;
+  if (const auto i = runner_->images.find(h); key == 0 && i != runner_->images.end()) key = i->second.key;
+  if (key == 0) throw std::logic_error("a step reads what was neither made nor uploaded");
+  return key;
+}
+
+// A texture of the image's shape; what it held is gone.
+HeldImage& GlBackend::prepare(const Image& image) {
+  HeldImage& held = runner_->images[image];
+  held.key = 0;
+  held.image = image;
+  held.transient = false;
+  if (!held.texture || !(held.texture->shape() == shape_of(image))) {
+    runner_->pool().give(std::move(held.texture));
+    held.texture = runner_->pool().take(shape_of(image));
+  }
+  return held;
+}
+
+void GlBackend::release_transients() {
+  for (auto held = runner_->images.begin(); held != runner_->images.end();) {
+    if (held->second.transient) {
+      runner_->pool().give(std::move(held->second.texture));
+      held = runner_->images.erase(held);
+    } else {
+      ++held;
+    }
+  }
+}
+
+void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progress) {
+  const GlContext::Current current(*context_);
+  const Clock::time_point start = Clock::now();
+  const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return upload_key(h); });
+  const std::vector<bool> runs = steps_to_run(steps, keys, [&](const Image& image, std::uint64_t key) {
+    const auto held = runner_->images.find(image);
+    return held != runner_->images.end() && held->second.key == key;
+  });
+
+  // After which step a transient image is read no more.
+  std::map<Handle, std::size_t> last_use;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!runs[i]) continue;
+    for (const Image& image : outputs_of(steps[i].what)) last_use[image] = i;
+    for (const Handle input : inputs_of(steps[i].what)) last_use[input] = i;
+  }
+
+  struct Release {  // also when a step throws
+    GlBackend& backend;
+    ~Release() { backend.release_transients(); }
+  } const release{*this};
+
+  stats.steps.clear();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i]};
+    if (runs[i]) {
+      progress.check();
+      const Clock::time_point step_start = Clock::now();
+      const std::vector<Image> outputs = outputs_of(steps[i].what);
+      for (const Image& image : outputs) prepare(image).transient = !image.keep;
+      std::visit([&](const auto& a) { airlight::run(a, *runner_, progress); }, steps[i].what);
+      context_->gl().Finish();  // what the step costs, and that a stop is seen soon
+      check_gl(context_->gl(), step.name.c_str());
+      for (const Image& image : outputs) {
+        if (image.keep) runner_->images.at(image).key = output_key(keys[i], image);
+      }
+      for (const auto& [handle, last] : last_use) {
+        const auto held = runner_->images.find(handle);
+        if (last != i || held == runner_->images.end() || !held->second.transient) continue;
+        runner_->pool().give(std::move(held->second.texture));
+        runner_->images.erase(held);
+      }
+      const Extent extent = outputs.at(0).extent;
+      step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
+      step.seconds = seconds_since(step_start);
+    }
+    stats.steps.push_back(step);
+  }
+  runner_->pool().trim();
+  stats.seconds = seconds_since(start);
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> make_gl_backend(const GlOptions& options) { return std::make_unique<GlBackend>(options); }
+
+}  // namespace airlight

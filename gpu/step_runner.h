@@ -1,0 +1,91 @@
+// What the GL side of an algorithm works with: programs, textures, buffers, and the loop over the pixels. One run() an algorithm, in the
+// file of its name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/algorithms/algorithm.h"
+#include "common/progress.h"
+#include "gpu/context.h"
+#include "gpu/held.h"
+#include "gpu/shader.h"
+
+namespace airlight {
+
+// Where the blocks and buffers stand that gpu/screen.glsl and gpu/dialect.glsl declare.
+constexpr GLuint view_binding = 0, lights_binding = 1, knobs_binding = 2;      // uniform blocks
+constexpr GLuint tables_binding = 7, many_lights_binding = 6;                   // storage buffers
+
+struct HeldImage {
+  Image image;
+  std::unique_ptr<Texture> texture;
+  std::uint64_t key = 0;   // of its content; 0: none
+  bool transient = false;  // goes back to the pool after its last reader
+};
+
+struct HeldBuffer {
+  std::unique_ptr<GlBuffer> buffer;
+  std::uint64_t key = 0;
+};
+
+class StepRunner {
+ public:
+  explicit StepRunner(GlContext&);
+  ~StepRunner();
+
+  const GlFunctions& gl() const { return gl_; }
+  TexturePool& pool() { return pool_; }
+
+  // Compiled once and kept. `defines` end with the empty string or nothing: both are passed over.
+  Program& compute(const char* file, const std::vector<std::string>& defines);
+  Program& raster(const char* file);  // with VERTEX and FRAGMENT defined
+
+  void read(GLuint unit, const Image&);                     // as a texture
+  void write(GLuint unit, const Image&);                    // as an image; absent: nothing
+  void storage(GLuint binding, const Buffer&);              // as a storage buffer
+  void storage(GLuint binding, std::span<const std::byte>); // small values, made for this step
+  GLuint buffer_name(const Buffer&) const;
+  template <class T>
+  void block(GLuint binding, const T& values) {             // std140
+    block_bytes(binding, std::as_bytes(std::span(&values, 1)));
+  }
+  void view(const View&);
+  // Returns the define under which gpu/screen.glsl finds them: few are a uniform block, which is read faster.
+  std::string lights(std::span<const Light>);
+
+  // A buffer made on the device from another, again only when that one's content changes.
+  GLuint derived(const Buffer& from, std::size_t bytes, const std::function<void(GLuint name)>& make);
+
+  // Runs a compute shader of gpu/screen.glsl for every pixel, a band of rows at a time, looking at progress between them.
+  void each_pixel(Program&, Extent, const Progress&);
+  void each(Program&, std::size_t items, std::size_t group);  // a compute shader over a list
+
+  std::map<Handle, HeldImage> images;
+  std::map<Handle, HeldBuffer> buffers;
+
+ private:
+  const Texture& texture(const Image&) const;
+  void block_bytes(GLuint binding, std::span<const std::byte>);
+
+  const GlFunctions& gl_;
+  TexturePool pool_;
+  std::map<std::string, std::unique_ptr<Program>> programs_;
+  std::map<GLuint, GlBuffer> blocks_, small_;
+  std::map<Handle, HeldBuffer> derived_;
+};
+
+void run(const SurfaceVisibility&, StepRunner&, const Progress&);
+void run(const ViewTransmittance&, StepRunner&, const Progress&);
+void run(const SurfaceShading&, StepRunner&, const Progress&);
+void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
+void run(const Compose&, StepRunner&, const Progress&);
+
+}  // namespace airlight
