@@ -14,6 +14,15 @@ struct Tolerance {
 };
 
 inline constexpr Tolerance tolerances[] = {
+    {"airlight_double", 1e-8, "relative; the adaptive quadrature that serves as oracle, against the high-precision table"},
+    {"airlight_value", 2e-5, "relative to the value: interpolation in the tables at their default size"},
+    {"airlight_end", 1e-7, "relative to the larger end value B or B': the difference of two floats is known no better"},
+    {"airlight_interpolation", 3e-5, "relative, beyond the ray's start, on random rays: cubic interpolation of 64 nodes an axis"},
+    {"phase_integral", 1e-6, "of a phase function over the sphere, float values"},
+    {"exp_ulp", 2.5, "ULP of exp_: rounding of its polynomial and of the reduced argument"},
+    {"log_ulp", 2.5, "ULP of log_ away from 1, where its value is small in absolute terms"},
+    {"parity_off_edges", 0.0002,
+     "share of pixels: where triangles are smaller than 1/10 pixel that rounding also picks a neighbour on smooth surfaces"},
     {"parity_edge_share", 0.002,
      "CPU and GL round projected vertices to 1/256 pixel from differently rounded floats: pixels on an edge may see the other side"},
 };

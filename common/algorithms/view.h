@@ -35,7 +35,7 @@ enum class PhaseKind : int { isotropic, rayleigh, henyey_greenstein, cornette_sh
 
 struct Phase {
   PhaseKind kind = PhaseKind::isotropic;
-  float g = 0;  // -0.99..0.99, for henyey_greenstein and cornette_shanks
+  double g = 0;  // -0.99..0.99, for henyey_greenstein and cornette_shanks
 };
 
 // Lambert + normalised Phong without a cosine on the specular term (docs: HACKING.md, conventions).

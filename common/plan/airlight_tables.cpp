@@ -49,7 +49,7 @@ struct ExponentialSum {
 
 constexpr Rule rule;
 
-double phase_at(Phase phase, double mu) { return f64::phase_value(static_cast<int>(phase.kind), static_cast<double>(phase.g), mu); }
+double phase_at(Phase phase, double mu) { return f64::phase_value(static_cast<int>(phase.kind), phase.g, mu); }
 
 // int_0^delta p(-cos s) exp(-lambda (cot(s/2) - cot(delta/2))) ds
 ExponentialSum beyond(Phase phase, double delta) {
@@ -79,7 +79,7 @@ std::vector<float> airlight_tables(Phase phase, int nodes) {
   const auto n = static_cast<std::size_t>(std::clamp(nodes, 8, 512));
   // A peak of width 1 - |g| in angle needs the fine end of the angle axis; without one, 0.6 is best for the layer of N in dense media.
   const bool peaked = phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
-  const double width = peaked ? std::clamp(4 * (1 - std::fabs(static_cast<double>(phase.g))), 0.06, 0.6) : 0.6;
+  const double width = peaked ? std::clamp(4 * (1 - std::fabs(phase.g)), 0.06, 0.6) : 0.6;
   const double w_beyond = phase.g < 0 ? width : 0.6, w_before = phase.g > 0 ? width : 0.6;
 
   // The inverse of the axes.

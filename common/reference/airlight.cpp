@@ -117,7 +117,7 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
 Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<Interval>& shadow, double tolerance) const {
   if (light.power == glm::dvec3(0) || !(reach_ > 0)) return {};
   const int kind = static_cast<int>(medium_.phase.kind);
-  const auto g = static_cast<double>(medium_.phase.g);
+  const auto g = medium_.phase.g;
   Integral sum;
   if (light.directional) {
     std::vector<double> t = breaks();

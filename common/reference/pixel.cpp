@@ -78,7 +78,7 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
     const double cosine = glm::dot(seen.normal, to_light);
     const glm::dvec3 reflection =
         f64::lambert(cosine) * glm::dvec3(material.diffuse) +
-        f64::phong(cosine, glm::dot(mirror, to_light), static_cast<double>(material.shininess)) * glm::dvec3(material.specular);
+        f64::phong(cosine, f64::unit_distance(mirror.x, mirror.y, mirror.z, to_light.x, to_light.y, to_light.z), static_cast<double>(material.shininess)) * glm::dvec3(material.specular);
     pixel.surface_direct += e * light.power * reflection;
   }
   if (!medium_.empty()) pixel.surface_ambient = glm::dvec3(material.diffuse) * medium_.ambient;

@@ -19,7 +19,7 @@ Phase parse_phase(const Node& node) {
   while (phase_names[static_cast<std::size_t>(phase.kind)] != type)
     phase.kind = static_cast<PhaseKind>(static_cast<int>(phase.kind) + 1);
   const bool takes_g = phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
-  if (takes_g) phase.g = static_cast<float>(o.require("g").number(limits::asymmetry));
+  if (takes_g) phase.g = o.require("g").number(limits::asymmetry);
   if (const auto g = o.find("g"); g && !takes_g)
     g->fail(fmt::format("the phase function {} has no g, expected none", type));
   return phase;

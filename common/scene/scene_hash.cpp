@@ -28,7 +28,7 @@ class Canonical {
 
 void add(Canonical& c, const Medium& m) {
   c.add("phase", static_cast<double>(m.phase.kind));
-  c.add("g", static_cast<double>(m.phase.g));
+  c.add("g", m.phase.g);
   c.add("albedo", m.albedo);
   c.add("ambient", m.ambient);
   c.add("emission", m.emission);

@@ -40,8 +40,8 @@ Case two_lamps(Extent e) {
   return airlight(e, {test_lights()[0], test_lights()[1]}, {PhaseKind::isotropic, 0}, 0.1F, 1e30F);
 }
 Case directional(Extent e) { return airlight(e, {test_lights()[2]}, {PhaseKind::rayleigh, 0}, 0.1F, 50); }
-Case peaked(Extent e) { return airlight(e, test_lights(), {PhaseKind::henyey_greenstein, 0.9F}, 0.2F, 1e30F); }
-Case backward(Extent e) { return airlight(e, test_lights(), {PhaseKind::cornette_shanks, -0.6F}, 0.2F, 1e30F); }
+Case peaked(Extent e) { return airlight(e, test_lights(), {PhaseKind::henyey_greenstein, 0.9}, 0.2F, 1e30F); }
+Case backward(Extent e) { return airlight(e, test_lights(), {PhaseKind::cornette_shanks, -0.6}, 0.2F, 1e30F); }
 Case murky(Extent e) { return airlight(e, test_lights(), {PhaseKind::mie_murky, 0}, 0.05F, 1e30F); }
 Case hazy(Extent e) { return airlight(e, test_lights(), {PhaseKind::mie_hazy, 0}, 0.05F, 1e30F); }
 Case behind(Extent e) { return airlight(e, {lamp(0.2F, 0.5F, 3)}, {PhaseKind::isotropic, 0}, 0.2F, 1e30F); }

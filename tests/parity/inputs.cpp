@@ -114,7 +114,7 @@ Scene test_scene(std::size_t triangles) {
   scene.medium.extinction = 0.08;
   scene.medium.albedo = {0.95, 0.93, 0.9};
   scene.medium.ambient = {0.01, 0.01, 0.02};
-  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.5F};
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.5};
   scene.lights = {{.type = LightType::point, .name = "lamp", .position = {-1.5, 1.8, 0.5}, .power = {18, 12, 7}},
                   {.type = LightType::point, .name = "", .position = {2, 0.8, -1.5}, .power = {5, 8, 14}},
                   {.type = LightType::directional, .name = "moon", .direction = glm::normalize(glm::dvec3(0.2, -1, -0.4)),

@@ -45,7 +45,7 @@ TEST_P(Parity, CpuEqualsGl) {
     std::printf("%s %s: %s\n", std::string(GetParam().name).c_str(), name.c_str(), d.text().c_str());
     ASSERT_TRUE(d.finite) << name;
     EXPECT_LE(d.share, share) << name;
-    EXPECT_EQ(d.share_inside, 0) << name;
+    EXPECT_LE(d.share_inside, edges.empty() ? 0 : tolerance("parity_off_edges")) << name;
   }
 }
 

@@ -70,7 +70,7 @@ TEST_P(ForcedTarget, IsTheOneThatRuns) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, ForcedTarget, testing::Values(Simd::scalar, Simd::avx2, Simd::avx512, Simd::neon),
-                         [](const auto& info) { return std::to_string(static_cast<int>(info.param)); });
+                         [](const auto& p) { return std::string(name_of(p.param)) == "AVX-512" ? "AVX512" : std::string(name_of(p.param)); });
 
 // A worker may find no work left before it wakes, so that one frame may use fewer; some frame uses all.
 TEST(Threads, AsManyRunAsWereAskedFor) {

@@ -1,0 +1,82 @@
+// The reference against images of exact single scattering made elsewhere (tests/data/peers: 160x120, one channel, little-endian PFM).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/reference/reference.h"
+#include "tests/truth/scenes.h"
+
+namespace airlight {
+namespace {
+
+constexpr Extent extent{160, 120};
+
+// Rows from the top.
+std::vector<double> read_pfm(const std::string& name) {
+  std::ifstream in(AIRLIGHT_TEST_DATA "/peers/" + name, std::ios::binary);
+  std::string kind;
+  int width = 0, height = 0;
+  double scale = 0;
+  in >> kind >> width >> height >> scale;
+  in.get();
+  EXPECT_EQ(kind, "Pf");
+  EXPECT_LT(scale, 0) << "little-endian";
+  EXPECT_EQ(width, extent.width);
+  EXPECT_EQ(height, extent.height);
+  std::vector<float> stored(160 * 120);
+  in.read(reinterpret_cast<char*>(stored.data()), static_cast<std::streamsize>(stored.size() * sizeof(float)));
+  EXPECT_TRUE(in.good());
+  std::vector<double> values;
+  for (std::size_t y = 120; y-- > 0;) values.insert(values.end(), stored.begin() + static_cast<long>(160 * y), stored.begin() + static_cast<long>(160 * (y + 1)));
+  return values;
+}
+
+void compare(const Scene& scene, const std::string& name) {
+  const std::vector<double> truth = read_pfm(name);
+  NoProgress progress;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const ReferenceFrame frame = reference_frame(scene, extent, {}, false, threads, progress);
+  double squares = 0, mean = 0, worst = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double value = frame.pixels[i].beauty().x;
+    ASSERT_TRUE(std::isfinite(value));
+    squares += (value - truth[i]) * (value - truth[i]);
+    mean += truth[i];
+    worst = std::max(worst, std::fabs(value - truth[i]) / truth[i]);
+  }
+  const double n = static_cast<double>(truth.size());
+  const double rmse = std::sqrt(squares / n) / (mean / n);
+  std::printf("%s: relative RMSE %.3g, worst pixel %.3g, claimed %.2g\n", name.c_str(), rmse, worst, frame.error);
+  EXPECT_FALSE(!(rmse < 1e-5));
+  EXPECT_FALSE(!(frame.error <= 1e-6));
+}
+
+TEST(Peers, FogWithLampInView) {
+  Scene scene = foggy_scene(0.2);
+  scene.surfaces = {black_wall(-8)};
+  scene.lights = {point_light({0.5, 0.3, -4}, glm::dvec3(10))};
+  compare(scene, "S1.pfm");
+}
+
+TEST(Peers, Blob) {
+  Scene scene;
+  scene.medium.gaussians = {{.center = {0, 0, -5}, .radius = 1, .extinction = 1.5}};
+  scene.lights = {point_light({-3, 3, -4}, glm::dvec3(100))};
+  compare(scene, "S2.pfm");
+}
+
+TEST(Peers, ShaftsBehindBox) {
+  Scene scene = foggy_scene(0.2);
+  scene.surfaces = {black_wall(-9), surface(box({-1, 0.5, -5.4}, {-0.2, 1.3, -4.6}), diffuse(0, 0, 0), true)};
+  scene.lights = {point_light({-1.6, 2.4, -5}, glm::dvec3(20))};
+  compare(scene, "S4.pfm");
+}
+
+}  // namespace
+}  // namespace airlight

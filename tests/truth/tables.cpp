@@ -1,0 +1,114 @@
+// The reference against tables of high-precision values.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/vec3.hpp>
+#include <map>
+#include <sstream>
+
+#include "common/reference/reference.h"
+#include "tests/truth/csv.h"
+#include "tests/truth/scenes.h"
+
+namespace airlight {
+namespace {
+
+glm::dvec3 point_of(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  glm::dvec3 p;
+  in >> p.x >> p.y >> p.z;
+  return p;
+}
+
+std::vector<Gaussian> gaussians_of(const std::string& text) {
+  std::vector<Gaussian> gaussians;
+  for (const std::string& one : split(text, ';')) {
+    std::istringstream in(one);
+    in.imbue(std::locale::classic());
+    Gaussian g;
+    double a = 0;
+    in >> g.center.x >> g.center.y >> g.center.z >> a >> g.extinction;
+    g.radius = 1 / a;
+    gaussians.push_back(g);
+  }
+  return gaussians;
+}
+
+double relative_error(double value, double expected) { return std::fabs(value - expected) / std::fabs(expected); }
+
+TEST(Tables, OpticalDepth) {
+  double worst = 0;
+  for (const auto& row : csv_rows("reference/optical_depth.csv")) {
+    ASSERT_EQ(row.size(), 4U);
+    const double expected = std::stod(row[3]);
+    const double value = optical_depth(gaussians_of(row[2]), point_of(row[0]), point_of(row[1]));
+    if (expected < 1e-30) {
+      EXPECT_FALSE(!(std::fabs(value - expected) <= 1e-30)) << row[0];
+      continue;
+    }
+    const double error = relative_error(value, expected);
+    EXPECT_FALSE(!(error <= 1e-11)) << row[0] << ": " << value << " instead of " << expected;
+    worst = std::max(worst, error);
+  }
+  std::printf("optical_depth.csv: largest relative error %.2g\n", worst);
+}
+
+TEST(Tables, GaussianLineIntegral) {
+  double worst = 0;
+  for (const auto& row : csv_rows("reference/gaussian_line_integral.csv")) {
+    ASSERT_EQ(row.size(), 6U);
+    const double a = std::stod(row[0]), c = std::stod(row[1]), h = std::stod(row[2]), t_center = std::stod(row[3]),
+                 d = std::stod(row[4]), expected = std::strtod(row[5].c_str(), nullptr);
+    const double value = gaussian_line_integral(a, c, h, t_center, 0, d);
+    if (expected < 1e-30) {
+      EXPECT_FALSE(!(std::fabs(value - expected) <= 1e-30));
+      continue;
+    }
+    const double error = relative_error(value, expected);
+    EXPECT_FALSE(!(error <= 1e-11)) << a << ' ' << h << ' ' << d << ": " << value << " instead of " << expected;
+    worst = std::max(worst, error);
+  }
+  std::printf("gaussian_line_integral.csv: largest relative error %.2g\n", worst);
+}
+
+// The table's light has no radius: here one that clamps nothing.
+TEST(Tables, AirlightHomogeneous) {
+  const std::map<std::string, Phase> phases{
+      {"isotropic", {}},
+      {"rayleigh", {PhaseKind::rayleigh, 0}},
+      {"hg0.6", {PhaseKind::henyey_greenstein, 0.6}},
+      {"cs0.6", {PhaseKind::cornette_shanks, 0.6}},
+      {"mie_hazy", {PhaseKind::mie_hazy, 0}},
+      {"mie_murky", {PhaseKind::mie_murky, 0}},
+  };
+  double worst = 0, most_claimed = 0;
+  int compared = 0;
+  for (const auto& row : csv_rows("reference/airlight_homogeneous.csv")) {
+    ASSERT_EQ(row.size(), 6U);
+    const double k = std::stod(row[1]), l = std::stod(row[2]), phi = std::stod(row[3]), d = std::stod(row[4]);
+    const double expected = std::strtod(row[5].c_str(), nullptr);
+    Scene scene = foggy_scene(k);
+    scene.sky_distance = d;
+    scene.medium.phase = phases.at(row[0]);
+    scene.lights = {point_light({l * std::sin(phi), 0, -l * std::cos(phi)}, glm::dvec3(1), 1e-12)};
+    const ReferencePixel p = Reference(scene, {1e-9, true}).pixel(centre, one_pixel);
+    if (expected < 1e-30) {
+      EXPECT_FALSE(!(std::fabs(p.airlight.x - expected) <= 1e-30));
+      continue;
+    }
+    ++compared;
+    const double error = relative_error(p.airlight.x, expected);
+    EXPECT_FALSE(!(error <= 1e-8)) << row[0] << " k " << k << " l " << l << " phi " << phi << " d " << d << ": "
+                                   << p.airlight.x << " instead of " << expected;
+    worst = std::max(worst, error);
+    most_claimed = std::max(most_claimed, p.error);
+  }
+  std::printf("airlight_homogeneous.csv: %d rows above 1e-30, largest relative error %.2g, largest claimed %.2g\n", compared, worst,
+              most_claimed);
+  EXPECT_GT(compared, 200);
+}
+
+}  // namespace
+}  // namespace airlight
