@@ -13,7 +13,7 @@ namespace airlight::HWY_NAMESPACE {
 
 static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& view) {
   const float* distance = view.plane(a.distance);
-  const float* tables = view.floats(a.tables);
+  const float* tables = a.tables ? view.floats(a.tables) : nullptr;
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const bool scatters = a.extinction > 0;

@@ -10,7 +10,7 @@ namespace airlight {
 // Single scattering of unshadowed lights along each pixel's ray in the homogeneous medium, with its ambient and emitted light.
 struct HomogeneousAirlight {
   Image distance;            // r32f [m], 1e30 on a miss
-  Buffer tables;  // airlight tables of the phase function (common/plan/airlight_tables.h), float
+  Buffer tables;             // airlight tables of the phase function (common/plan/airlight_tables.h), float; needed by point lights in a medium
   std::vector<Light> lights;
   View view;
   Phase phase;

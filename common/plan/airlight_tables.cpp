@@ -49,6 +49,10 @@ struct ExponentialSum {
 
 constexpr Rule rule;
 
+bool has_peak(Phase phase) {
+  return phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
+}
+
 double phase_at(Phase phase, double mu) { return f64::phase_value(static_cast<int>(phase.kind), phase.g, mu); }
 
 // int_0^delta p(-cos s) exp(-lambda (cot(s/2) - cot(delta/2))) ds
@@ -75,10 +79,17 @@ ExponentialSum before(Phase phase, double delta_rest) {
 
 }  // namespace
 
+int airlight_table_nodes(Phase phase, int nodes) {
+  // Measured: with these the error stays what it is without a peak, up to |g| = 0.96.
+  const double g = has_peak(phase) ? std::fabs(phase.g) : 0;
+  const int halves = g <= 0.55 ? 2 : g <= 0.85 ? 3 : g <= 0.92 ? 4 : g <= 0.96 ? 6 : 8;
+  return std::clamp(nodes * halves / 2, 8, 512);
+}
+
 std::vector<float> airlight_tables(Phase phase, int nodes) {
-  const auto n = static_cast<std::size_t>(std::clamp(nodes, 8, 512));
+  const auto n = static_cast<std::size_t>(airlight_table_nodes(phase, nodes));
   // A peak of width 1 - |g| in angle needs the fine end of the angle axis; without one, 0.6 is best for the layer of N in dense media.
-  const bool peaked = phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
+  const bool peaked = has_peak(phase);
   const double width = peaked ? std::clamp(4 * (1 - std::fabs(phase.g)), 0.06, 0.6) : 0.6;
   const double w_beyond = phase.g < 0 ? width : 0.6, w_before = phase.g > 0 ? width : 0.6;
 

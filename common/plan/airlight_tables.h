@@ -7,7 +7,10 @@
 
 namespace airlight {
 
-// `nodes` (8..512) an axis; time grows with its square. Computed in double from the defining integrals.
+// Nodes an axis, 8..512: `nodes` for a smooth phase function, up to four times as many for a peak.
+int airlight_table_nodes(Phase, int nodes);
+
+// airlight_table_nodes() an axis; time grows with its square. Computed in double from the defining integrals.
 std::vector<float> airlight_tables(Phase, int nodes);
 
 }  // namespace airlight
