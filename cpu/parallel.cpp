@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <vector>
@@ -55,9 +56,13 @@ class FlushToZero {
 #ifdef AIRLIGHT_TBB
 
 struct Workers::Pool {
-  explicit Pool(int threads)
-      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {}
-  tbb::global_control limit;  // lets more threads run than the machine has cores
+  explicit Pool(int threads) : arena(threads) {
+    // More threads than the machine has cores need leave. Not asked for otherwise: the least of all such controls in the process holds.
+    if (threads > tbb::this_task_arena::max_concurrency()) {
+      more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
+  }
+  std::optional<tbb::global_control> more;
   tbb::task_arena arena;
 };
 

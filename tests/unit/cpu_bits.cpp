@@ -2,13 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <set>
+#include <thread>
 
 #include "common/error.h"
-#include "cpu/backend.h"
-#include "tests/parity/case.h"
 #include "common/scene/sha256.h"
+#include "cpu/backend.h"
+#include "cpu/parallel.h"
+#include "tests/parity/case.h"
 
 namespace airlight {
 
@@ -72,16 +77,43 @@ TEST_P(ForcedTarget, IsTheOneThatRuns) {
 INSTANTIATE_TEST_SUITE_P(Targets, ForcedTarget, testing::Values(Simd::scalar, Simd::avx2, Simd::avx512, Simd::neon),
                          [](const auto& p) { return std::string(name_of(p.param)) == "AVX-512" ? "AVX512" : std::string(name_of(p.param)); });
 
-// A worker may find no work left before it wakes, so that one frame may use fewer; some frame uses all.
+// Every item waits until all threads have one, so that no thread can do the work of two.
 TEST(Threads, AsManyRunAsWereAskedFor) {
-  const Case c = frame_cases()[0].make({800, 600});
   for (const int threads : {1, 2, 3, 8}) {
+    Workers workers(threads);
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    workers.each(threads, [&](int, int) {
+      for (;;) {
+        {
+          const std::lock_guard lock(mutex);
+          seen.insert(std::this_thread::get_id());
+          if (seen.size() == static_cast<std::size_t>(threads)) return;
+        }
+        if (std::chrono::steady_clock::now() > limit) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+    std::printf("%d threads asked, %zu ran\n", threads, seen.size());
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(threads));
+    EXPECT_EQ(workers.distinct_threads(), threads);
+  }
+}
+
+// In a frame a worker may find no work left before it wakes; some frame uses more than one.
+TEST(Threads, ShareAFrame) {
+  const Case c = frame_cases()[0].make({800, 600});
+  const std::string expected = run(c, {.simd = available_simd().back(), .threads = 1, .fuse = true}).digest;
+  for (const int threads : {2, 3, 8}) {
     int most = 0;
     for (int attempt = 0; attempt < 50 && most < threads; ++attempt) {
-      most = std::max(most, run(c, {.simd = available_simd().back(), .threads = threads, .fuse = true}).threads);
+      const airlight::Run r = run(c, {.simd = available_simd().back(), .threads = threads, .fuse = true});
+      EXPECT_EQ(r.digest, expected);
+      most = std::max(most, r.threads);
     }
-    std::printf("%d threads asked, %d ran\n", threads, most);
-    EXPECT_EQ(most, threads);
+    std::printf("%d threads asked, %d had a tile of one frame\n", threads, most);
+    EXPECT_GE(most, 2);
   }
 }
 
