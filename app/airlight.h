@@ -41,11 +41,6 @@ struct RenderSettings {
   std::vector<std::string> images{"beauty"};                  // what to make: see image_names() in common/techniques/technique.h
 };
 
-struct NamedImage {
-  std::string name;
-  HostImage image;
-};
-
 struct Frame {
   std::vector<NamedImage> images;                          // in the order asked for
   Stats stats;
@@ -73,6 +68,9 @@ class Renderer {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// "0.1.0"
+std::string_view version();
 
 // What would run, what is skipped and why; many lines, ends with a newline.
 std::string explain(const Scene&, const RenderSettings&);

@@ -129,6 +129,8 @@ struct Renderer::State {
   }
 };
 
+std::string_view version() { return AIRLIGHT_VERSION; }
+
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>()) {
   state_->options = options;
   state_->backend = make_backend(options);
@@ -150,6 +152,9 @@ const HostImage& Frame::image(std::string_view name) const {
 Frame Renderer::render(const Scene& scene, const RenderSettings& settings, Progress& progress) {
   const Technique& technique = chosen_technique(scene, settings);
   FrameRequest request = request_for(technique, scene, settings);
+  if (!technique.plan && state_->options.backend != "cpu") {
+    throw InputError("technique " + std::string(technique.name) + " runs in double on the CPU, not on backend " + state_->options.backend);
+  }
 
   Frame frame;
   frame.technique = technique.name;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <string>
 #include <vector>
 
 namespace airlight {
@@ -59,6 +60,11 @@ struct HostImage {
   }
   float& at(int x, int y, int c = 0) { return values[index(x, y, c)]; }
   float at(int x, int y, int c = 0) const { return values[index(x, y, c)]; }
+};
+
+struct NamedImage {
+  std::string name;
+  HostImage image;
 };
 
 }  // namespace airlight

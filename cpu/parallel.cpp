@@ -16,6 +16,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/version.h>
 #endif
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -55,6 +56,8 @@ class FlushToZero {
 
 #ifdef AIRLIGHT_TBB
 
+std::string parallel_library() { return "oneTBB " + std::to_string(TBB_VERSION_MAJOR) + "." + std::to_string(TBB_VERSION_MINOR); }
+
 struct Workers::Pool {
   explicit Pool(int threads) : arena(threads) {
     // More threads than the machine has cores need leave. Not asked for otherwise: the least of all such controls in the process holds.
@@ -81,6 +84,8 @@ void Workers::loop(int n, const std::function<void(int, int)>& body) {
 }
 
 #else
+
+std::string parallel_library() { return "std::thread"; }
 
 // Threads sleep between loops; in one they take the next index until none is left.
 struct Workers::Pool {

@@ -5,10 +5,14 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
 namespace airlight {
+
+// "oneTBB 2021.8" or "std::thread"
+std::string parallel_library();
 
 // A pool of `threads` workers (at least 1; the calling thread is one of them). Each worker flushes denormals to zero while it
 // runs a loop; the caller's floating-point mode is restored afterwards.

@@ -42,6 +42,10 @@ std::vector<Simd> available_simd() {
   return found;
 }
 
+std::string highway_version() {
+  return std::to_string(HWY_MAJOR) + "." + std::to_string(HWY_MINOR) + "." + std::to_string(HWY_PATCH);
+}
+
 std::string_view name_of(Simd simd) {
   switch (simd) {
     case Simd::scalar: return "scalar";

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,9 @@ enum class Simd { scalar, avx2, avx512, neon };
 // Of this machine and build, best last; scalar is always there.
 std::vector<Simd> available_simd();
 std::string_view name_of(Simd);
+
+// "1.0.3"
+std::string highway_version();
 
 // The target of the code that a call for `asked` ends in, as told by that code.
 Simd target_that_runs(Simd asked);

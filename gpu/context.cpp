@@ -32,12 +32,15 @@ void GlContext::load(Resolve resolve, const std::string& kind) {
   functions_.GetIntegerv(GL_MINOR_VERSION, &minor);
   const std::string version = std::to_string(major) + "." + std::to_string(minor);
   if (major < 4 || (major == 4 && minor < 5)) throw MachineError(kind + ": OpenGL 4.5 is needed, this is " + version);
-  const auto* name = reinterpret_cast<const char*>(functions_.GetString(GL_RENDERER));
-  const std::string renderer = name != nullptr ? name : "unknown renderer";
+  const auto told = [&](GLenum what) {
+    const auto* text = reinterpret_cast<const char*>(functions_.GetString(what));
+    return std::string(text != nullptr ? text : "unknown");
+  };
+  const std::string renderer = told(GL_RENDERER);
   for (const char* program : {"llvmpipe", "softpipe", "swrast", "SWR"}) {
     software_ = software_ || renderer.find(program) != std::string::npos;
   }
-  description_ = renderer + ", OpenGL " + version + ", " + kind;
+  description_ = renderer + ", " + told(GL_VENDOR) + ", OpenGL " + told(GL_VERSION) + ", " + kind;
 }
 
 std::unique_ptr<GlContext> make_context(const GlOptions& options) {

@@ -15,7 +15,7 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  // "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5, OSMesa"
+  // Renderer, vendor, version, kind: "llvmpipe (LLVM 15.0.6, 256 bits), Mesa/X.org, OpenGL 4.5 (Core Profile) Mesa 22.3.6, OSMesa"
   const std::string& describe() const { return description_; }
   // Valid while a Current of this context lives.
   const GlFunctions& gl() const { return functions_; }

@@ -43,11 +43,24 @@ bool holds_bytes(const std::string& extension) {
   return known.contains(extension);
 }
 
-OIIO::ImageSpec spec_for(const HostImage& image, const std::string& extension, const ImageFileOptions& options) {
+// An image with a name for each channel.
+struct Channels {
+  HostImage image;
+  std::vector<std::string> names;
+};
+
+std::vector<std::string> channel_names(const std::string& layer, int channels) {
+  const std::string before = layer.empty() ? "" : layer + ".";
+  if (channels == 1) return {before + "Y"};
+  return {before + "R", before + "G", before + "B"};
+}
+
+OIIO::ImageSpec spec_for(const Channels& content, const std::string& extension, const ImageFileOptions& options) {
   const bool floats = holds_floats(extension);
+  const HostImage& image = content.image;
   OIIO::ImageSpec spec(image.extent.width, image.extent.height, image.channels,
                        floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-  if (image.channels == 1) spec.channelnames = {"Y"};
+  spec.channelnames = content.names;
   spec.attribute("oiio:ColorSpace", floats ? "Linear" : "sRGB");
   // OpenImageIO stores the time of day (DateTime, EXR's capDate) unless there is one; Software would tell its version.
   spec.attribute("DateTime", "2000:01:01 00:00:00");
@@ -59,7 +72,7 @@ OIIO::ImageSpec spec_for(const HostImage& image, const std::string& extension, c
   return spec;
 }
 
-void check(const std::string& path, const HostImage& image, const ImageFileOptions& options) {
+void check(const std::string& path, const HostImage& image) {
   if (image.extent.width < 1 || image.extent.height < 1 || image.extent.width > 65535 || image.extent.height > 65535) {
     throw InputError(fmt::format("{}: an image of {} x {} pixels, expected 1..65535 a side", path, image.extent.width,
                                  image.extent.height));
@@ -68,21 +81,12 @@ void check(const std::string& path, const HostImage& image, const ImageFileOptio
     throw InputError(fmt::format("{}: {} channels, expected 1 or 3", path, image.channels));
   if (image.values.size() != image.index(0, image.extent.height))
     throw InputError(path + ": the image has not as many values as its size says");
-  const std::string extension = lower_extension(path);
-  if (!holds_floats(extension) && !holds_bytes(extension)) {
-    throw InputError(fmt::format(
-        "{}: unknown image format \"{}\", expected exr, pfm, tif, hdr, png, jpg, bmp, tga or ppm", path, extension));
-  }
-  if (options.tonemap != "clip" && options.tonemap != "reinhard") {
-    throw InputError(fmt::format("unknown tone map \"{}\", expected clip or reinhard", options.tonemap));
-  }
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a directory, expected a file name");
 }
 
 // The whole file in memory: written by ourselves, so that what a full disk answers is known.
-std::vector<unsigned char> encoded(const std::string& path, const HostImage& image, const ImageFileOptions& options) {
+std::vector<unsigned char> encoded(const std::string& path, const Channels& content, const ImageFileOptions& options) {
   const std::string extension = lower_extension(path);
+  const HostImage& image = content.image;
   if (extension == "pfm") return encoded_pfm(image);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("image." + extension);
   if (!output || !output->supports("ioproxy")) {
@@ -91,7 +95,7 @@ std::vector<unsigned char> encoded(const std::string& path, const HostImage& ima
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   output->set_ioproxy(&memory);
-  bool good = output->open("image." + extension, spec_for(image, extension, options));
+  bool good = output->open("image." + extension, spec_for(content, extension, options));
   if (holds_floats(extension)) {
     good = good && output->write_image(OIIO::TypeDesc::FLOAT, image.values.data());
   } else {
@@ -105,21 +109,85 @@ std::vector<unsigned char> encoded(const std::string& path, const HostImage& ima
 
 }  // namespace
 
-void write_image(const std::string& path, const HostImage& image, const ImageFileOptions& options) {
-  check(path, image, options);
-  TemporaryFile file(path);  // first: a folder that cannot be written should not cost the encoding
-  const std::vector<unsigned char> bytes = encoded(path, image, options);
-  file.write(bytes.data(), bytes.size());
-  file.rename_to_target();
+void check_image_path(const std::string& path, const ImageFileOptions& options) {
+  const std::string extension = lower_extension(path);
+  if (!holds_floats(extension) && !holds_bytes(extension)) {
+    throw InputError(fmt::format(
+        "{}: unknown image format \"{}\", expected exr, pfm, tif, hdr, png, jpg, bmp, tga or ppm", path, extension));
+  }
+  if (options.tonemap != "clip" && options.tonemap != "reinhard") {
+    throw InputError(fmt::format("unknown tone map \"{}\", expected clip or reinhard", options.tonemap));
+  }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a directory, expected a file name");
+  if (!std::filesystem::is_directory(folder_of(path), error)) throw InputError(path + ": there is no folder " + folder_of(path));
 }
 
-HostImage read_image(const std::string& path) {
+void write_image(const std::string& path, const HostImage& image, const ImageFileOptions& options) {
+  const NamedImage only{"", image};
+  write_images(path, std::span(&only, 1), options);
+}
+
+std::vector<std::string> write_images(const std::string& path, std::span<const NamedImage> images, const ImageFileOptions& options) {
+  check_image_path(path, options);
+  if (images.empty()) throw InputError(path + ": no image to write");
+  for (const NamedImage& i : images) {
+    check(path, i.image);
+    if (!(i.image.extent == images[0].image.extent)) throw InputError(path + ": images of different sizes");
+  }
+  struct Output {
+    std::string name;
+    Channels content;
+    std::unique_ptr<TemporaryFile> file;
+  };
+  std::vector<Output> outputs;
+  if (lower_extension(path) == "exr") {
+    Channels all;
+    for (const NamedImage& i : images) {
+      const std::vector<std::string> names = channel_names(all.names.empty() ? "" : i.name, i.image.channels);
+      all.names.insert(all.names.end(), names.begin(), names.end());
+    }
+    const auto channels = all.names.size();
+    all.image = HostImage(images[0].image.extent, static_cast<int>(channels));
+    std::size_t first = 0;
+    for (const NamedImage& i : images) {
+      const auto own = static_cast<std::size_t>(i.image.channels);
+      for (std::size_t k = 0; k < i.image.values.size(); ++k) all.image.values[k / own * channels + first + k % own] = i.image.values[k];
+      first += own;
+    }
+    outputs.push_back({path, std::move(all), nullptr});
+  } else {
+    const std::filesystem::path whole(path);
+    for (const NamedImage& i : images) {
+      const std::string name = outputs.empty() ? path : (whole.parent_path() / whole.stem()).string() + "." + i.name + whole.extension().string();
+      outputs.push_back({name, {i.image, channel_names("", i.image.channels)}, nullptr});
+    }
+  }
+  // First: a folder that cannot be written should not cost the encoding.
+  for (Output& o : outputs) o.file = std::make_unique<TemporaryFile>(o.name);
+  std::vector<std::string> names;
+  for (const Output& o : outputs) {
+    const std::vector<unsigned char> bytes = encoded(o.name, o.content, options);
+    o.file->write(bytes.data(), bytes.size());
+    names.push_back(o.name);
+  }
+  for (const Output& o : outputs) o.file->rename_to_target();
+  return names;
+}
+
+namespace {
+
+Channels read_channels(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw InputError(path + ": no such file");
   if (status.type() == std::filesystem::file_type::directory)
     throw InputError(path + ": is a directory, expected an image file");
-  if (lower_extension(path) == "pfm") return decoded_pfm(path, read_file(path, std::uint64_t{1} << 36U));
+  if (lower_extension(path) == "pfm") {
+    HostImage image = decoded_pfm(path, read_file(path, std::uint64_t{1} << 36U));
+    const int count = image.channels;
+    return {std::move(image), channel_names("", count)};
+  }
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input) throw InputError(fmt::format("{}: not a readable image: {}", path, one_line(OIIO::geterror())));
   const OIIO::ImageSpec& spec = input->spec();
@@ -132,7 +200,42 @@ HostImage read_image(const std::string& path) {
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data())) {
     throw InputError(fmt::format("{}: reading failed: {}", path, one_line(input->geterror())));
   }
-  return image;
+  return {std::move(image), spec.channelnames};
+}
+
+}  // namespace
+
+HostImage read_image(const std::string& path) { return read_channels(path).image; }
+
+std::vector<NamedImage> read_images(const std::string& path) {
+  const Channels content = read_channels(path);
+  struct Layer {
+    std::string name;
+    std::vector<std::pair<std::size_t, std::size_t>> channels;  // rank, index
+  };
+  std::vector<Layer> layers;
+  for (std::size_t c = 0; c < content.names.size(); ++c) {
+    const std::string& full = content.names[c];
+    const std::size_t dot = full.rfind('.');
+    const std::string name = dot == std::string::npos ? "" : full.substr(0, dot);
+    const std::string channel = dot == std::string::npos ? full : full.substr(dot + 1);
+    const std::size_t rank = std::min(std::string_view("RGBAXYZ").find(channel), std::size_t{100} + c);
+    auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
+    if (layer == layers.end()) layer = layers.insert(name.empty() ? layers.begin() : layers.end(), {name, {}});
+    layer->channels.emplace_back(rank, c);
+  }
+  std::vector<NamedImage> images;
+  const auto all = static_cast<std::size_t>(content.image.channels);
+  for (Layer& layer : layers) {
+    std::sort(layer.channels.begin(), layer.channels.end());
+    NamedImage named{layer.name, HostImage(content.image.extent, static_cast<int>(layer.channels.size()))};
+    const std::size_t own = layer.channels.size();
+    for (std::size_t k = 0; k < named.image.values.size(); ++k) {
+      named.image.values[k] = content.image.values[k / own * all + layer.channels[k % own].second];
+    }
+    images.push_back(std::move(named));
+  }
+  return images;
 }
 
 }  // namespace airlight

@@ -1,0 +1,36 @@
+// The commands of the program `airlight`, each in its own file. Each returns its exit code and throws what the library throws.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/airlight.h"
+#include "app/terminal.h"
+
+namespace airlight {
+
+struct RenderCommand {
+  std::string scene;
+  std::string output;
+  RendererOptions renderer;
+  RenderSettings settings;
+  std::vector<std::string> aovs;
+  ImageFileOptions file;
+  std::string stats_file;  // empty: none
+  bool stats = false;
+  bool explain = false;  // print what would run, before it runs
+};
+int render(const RenderCommand&, Terminal&);
+int explain(const RenderCommand&, Terminal&);
+
+struct CompareCommand {
+  std::string a, b;
+  std::string image;       // empty: the main one
+  double tolerance = 0;    // of the relative RMSE
+};
+int compare(const CompareCommand&);
+
+int info();
+
+}  // namespace airlight

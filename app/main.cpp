@@ -1,0 +1,182 @@
+// The program `airlight`: command line, messages, exit codes (0 done, 1 images differ, 2 bad input, 3 the machine cannot, 130 stopped).
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdio>
+#include <iostream>
+
+#include "app/command.h"
+#include "common/spelling.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+namespace {
+
+// "800x600" into an extent.
+Extent extent_of(const std::string& text) {
+  Extent e;
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%6dx%6d%n", &e.width, &e.height, &used) != 2 || static_cast<std::size_t>(used) != text.size()) {
+    throw InputError("--resolution: expected WIDTHxHEIGHT, found \"" + text + "\"");
+  }
+  return e;
+}
+
+std::pair<std::string, std::string> setting_of(const std::string& text) {
+  const std::size_t at = text.find('=');
+  if (at == std::string::npos || at == 0) throw InputError("--set: expected NAME=VALUE, found \"" + text + "\"");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::string knobs_text() {
+  std::string all = "Settings (--set NAME=VALUE)\n";
+  for (const Technique& t : techniques()) {
+    all += "  " + std::string(t.name) + "\n";
+    for (const Knob& k : t.knobs) {
+      all += "    " + std::string(k.name) + " = " + std::string(k.standard) + "   " + std::string(k.meaning);
+      all += k.kind == Knob::Kind::choice ? " (" + joined(k.choices, " | ") + ")" : "";
+      all += "\n";
+    }
+  }
+  return all;
+}
+
+constexpr const char* program_examples = R"(Examples
+  airlight render fog.json -o fog.exr
+  airlight render fog.json -o fog.png --backend gl --exposure 1
+  airlight render fog.json -o truth.exr --technique reference --resolution 96x72
+  airlight compare fog.exr truth.exr --tolerance 0.001
+  airlight explain fog.json
+)";
+constexpr const char* render_examples = R"(Examples
+  airlight render fog.json -o fog.exr --aov depth,airlight --stats
+  airlight render fog.json -o fog.png --supersample 3 --tonemap reinhard
+  airlight render fog.json -o fog.exr --simd scalar --threads 1 --set table_nodes=128
+EXR files hold every image asked for, in channels NAME.R ...; other formats get one file an image.
+)";
+
+// What the command line gives as text.
+struct Flags {
+  RenderCommand render;
+  CompareCommand compare;
+  std::string resolution, log_level = "warning";
+  std::vector<std::string> settings;
+  bool quiet = false;
+};
+
+void add_scene_flags(CLI::App& command, Flags& f) {
+  std::vector<std::string> names{"auto"};
+  for (const Technique& t : techniques()) names.emplace_back(t.name);
+  std::string list;
+  for (const std::string& n : names) list += (list.empty() ? "" : " | ") + n;
+  command.add_option("SCENE", f.render.scene, "scene file (JSON, glTF)")->required();
+  command.add_option("--technique", f.render.settings.technique, list)->capture_default_str();
+  command.add_option("--set", f.settings, "NAME=VALUE, a setting of the technique; may be repeated")->take_all()->allow_extra_args(false);
+  command.add_option("--aov", f.render.aovs, "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
+                     "airlight, airlight.LIGHT, depth, normal, optical_depth")->delimiter(',');
+  command.add_option("--resolution", f.resolution, "WIDTHxHEIGHT instead of the camera's");
+  command.add_option("--supersample", f.render.settings.supersample, "n x n samples a pixel, 1 to 16")->capture_default_str();
+}
+
+void add_render_flags(CLI::App& command, Flags& f) {
+  RenderCommand& r = f.render;
+  command.add_option("-o,--output", r.output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")->required();
+  command.add_option("--backend", r.renderer.backend, "cpu | gl")->capture_default_str();
+  command.add_option("--threads", r.renderer.threads, "threads of the CPU, 0: as many as there are")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--simd", r.renderer.simd, "auto | scalar | avx2 | avx512 | neon")->capture_default_str();
+  command.add_option("--gl-context", r.renderer.gl_context, "auto | osmesa | egl; auto is EGL where there is hardware, else OSMesa")->capture_default_str();
+  command.add_option("--gl-device", r.renderer.gl_device, "which EGL device")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--exposure", r.file.exposure, "stops, for tone-mapped files")->check(CLI::Range(-100.0, 100.0))->capture_default_str();
+  command.add_option("--tonemap", r.file.tonemap, "clip | reinhard, for tone-mapped files")->capture_default_str();
+  command.add_flag("--stats", r.stats, "print what each step took");
+  command.add_option("--stats-json", r.stats_file, "write the same to a file");
+  command.add_flag("--explain", r.explain, "print what runs, before it runs");
+  command.add_flag("--quiet", f.quiet, "print errors only");
+  command.add_option("--log-level", f.log_level, "error | warning | info | debug")->check(CLI::IsMember({"error", "warning", "info", "debug"}))->capture_default_str();
+}
+
+LogLevel level_of(const Flags& f) {
+  if (f.quiet || f.log_level == "error") return LogLevel::error;
+  if (f.log_level == "info") return LogLevel::info;
+  return f.log_level == "debug" ? LogLevel::debug : LogLevel::warning;
+}
+
+// Names of the design that this version does not have: better an answer than "unknown".
+void refuse_later_versions(int argc, char** argv) {
+  constexpr std::array<std::string_view, 6> commands{"view", "edit", "fit", "convert", "plan", "merge"};
+  constexpr std::array<std::string_view, 2> flags{"--frames", "--seed"};
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const bool command = i == 1 && std::find(commands.begin(), commands.end(), word) != commands.end();
+    const bool flag = std::any_of(flags.begin(), flags.end(), [&](std::string_view f) { return word == f || word.starts_with(std::string(f) + "="); });
+    if (command || flag) throw InputError(std::string(word.substr(0, word.find('='))) + ": not in this version");
+  }
+}
+
+int run(int argc, char** argv) {
+  refuse_later_versions(argc, argv);
+  Flags f;
+  CLI::App program("airlight renders fog, and lamps and surfaces in it.", "airlight");
+  program.set_version_flag("--version", "airlight " + std::string(version()));
+  program.require_subcommand(1);
+  program.footer(program_examples);
+  CLI::App* render_command = program.add_subcommand("render", "render a scene to an image file");
+  add_scene_flags(*render_command, f);
+  add_render_flags(*render_command, f);
+  render_command->footer(knobs_text() + render_examples);
+  CLI::App* explain_command = program.add_subcommand("explain", "print what would run, what is left out and why");
+  add_scene_flags(*explain_command, f);
+  explain_command->footer(knobs_text());
+  CLI::App* compare_command = program.add_subcommand("compare", "compare image A with image B, the truth; exit code 1 beyond the tolerance");
+  compare_command->add_option("A", f.compare.a, "image file")->required();
+  compare_command->add_option("B", f.compare.b, "image file")->required();
+  compare_command->add_option("--image", f.compare.image, "which of the files' images, for example depth (default: the main one)");
+  compare_command->add_option("--tolerance", f.compare.tolerance, "largest relative RMSE")->check(CLI::NonNegativeNumber)->capture_default_str();
+  CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    throw InputError("airlight: " + std::string(e.what()) + " (airlight --help)");
+  }
+
+  static Terminal terminal(level_of(f));  // outlives the thread that waits for signals
+  stop_on_signals(terminal);
+  for (const std::string& s : f.settings) f.render.settings.knobs.push_back(setting_of(s));
+  if (!f.resolution.empty()) f.render.settings.resolution = extent_of(f.resolution);
+  if (*render_command) return render(f.render, terminal);
+  if (*explain_command) return explain(f.render, terminal);
+  if (*compare_command) return compare(f.compare);
+  if (*info_command) return info();
+  return 2;
+}
+
+}  // namespace
+
+}  // namespace airlight
+
+int main(int argc, char** argv) {
+  const auto fail = [](const std::exception& e, int code) {
+    std::cerr << e.what() << '\n';
+    return code;
+  };
+  try {
+    const int code = airlight::run(argc, argv);
+    std::cout.flush();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw airlight::MachineError("standard output cannot be written");
+    return code;
+  } catch (const airlight::InputError& e) {
+    return fail(e, 2);
+  } catch (const airlight::Interrupted& e) {
+    return fail(e, 130);
+  } catch (const airlight::MachineError& e) {
+    return fail(e, 3);
+  } catch (const std::bad_alloc&) {
+    return fail(airlight::MachineError("not enough memory"), 3);
+  } catch (const std::exception& e) {
+    std::cerr << "internal error: " << e.what() << '\n';
+    return 3;
+  }
+}

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "app/command.h"
+#include "common/scene/temporary_file.h"
+
+namespace airlight {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) { return std::chrono::duration<double>(to - from).count(); }
+
+struct Times {
+  double load = 0, render = 0, write = 0;  // [s]
+};
+
+// The text of a JSON string.
+std::string quoted(std::string_view text) {
+  std::string all = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') all += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      all += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      all += c;
+    }
+  }
+  return all + '"';
+}
+
+std::string stats_json(const Frame& frame, const Times& times, const std::string& hash) {
+  std::string steps, knobs;
+  for (const StepStats& s : frame.stats.steps) {
+    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {} }}", steps.empty() ? "" : ",", quoted(s.name),
+                         s.seconds, s.items, s.reused);
+  }
+  for (const auto& [name, value] : frame.knobs) knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
+  return fmt::format(
+      "{{\n  \"version\": {}, \"scene\": {},\n  \"technique\": {}, \"settings\": {{ {} }}, \"device\": {},\n"
+      "  \"seconds\": {{ \"load\": {}, \"render\": {}, \"steps\": {}, \"write\": {} }},\n  \"steps\": [{}\n  ]\n}}\n",
+      quoted(version()), quoted(hash), quoted(frame.technique), knobs, quoted(frame.device), times.load, times.render, frame.stats.seconds,
+      times.write, steps);
+}
+
+void print_stats(const Frame& frame, const Times& times) {
+  fmt::print("{} on {}\n", frame.technique, frame.device);
+  for (const StepStats& s : frame.stats.steps) {
+    fmt::print("  {:<24} {:>10.3f} ms  {:>10} items{}\n", s.name, 1e3 * s.seconds, s.items, s.reused ? "  reused" : "");
+  }
+  fmt::print("  {:<24} {:>10.3f} ms\n", "all steps, wall time", 1e3 * frame.stats.seconds);
+  fmt::print("load {:.3f} s, render {:.3f} s, write {:.3f} s\n", times.load, times.render, times.write);
+}
+
+// Nothing that changes from run to run, or with the number of threads and the SIMD target, which change no bit.
+std::vector<std::pair<std::string, std::string>> metadata(const Scene& scene, const Frame& frame, const RenderCommand& c) {
+  std::vector<std::pair<std::string, std::string>> all{{"airlight:version", std::string(version())},
+                                                       {"airlight:technique", frame.technique},
+                                                       {"airlight:scene", scene.hash},
+                                                       {"airlight:supersample", std::to_string(c.settings.supersample)}};
+  if (frame.technique != "reference") all.emplace_back("airlight:backend", c.renderer.backend);
+  for (const auto& [name, value] : frame.knobs) all.emplace_back("airlight:set:" + name, value);
+  return all;
+}
+
+}  // namespace
+
+int render(const RenderCommand& c, Terminal& terminal) {
+  RenderSettings settings = c.settings;
+  settings.images = {"beauty"};
+  for (const std::string& name : c.aovs) {
+    if (std::find(settings.images.begin(), settings.images.end(), name) == settings.images.end()) settings.images.push_back(name);
+  }
+  check_image_path(c.output, c.file);
+  Times times;
+  const Clock::time_point start = Clock::now();
+  const Scene scene = load_scene(c.scene, terminal);
+  const Clock::time_point loaded = Clock::now();
+  times.load = seconds_between(start, loaded);
+  terminal.log(LogLevel::debug, fmt::format("{}: loaded in {:.3f} s, {}", c.scene, times.load, scene.hash));
+  const std::string plan = explain(scene, settings);
+  if (c.explain) fmt::print("{}", plan);
+  terminal.log(LogLevel::debug, plan);
+
+  Renderer renderer(c.renderer);
+  const Frame frame = renderer.render(scene, settings, terminal);
+  const Clock::time_point rendered = Clock::now();
+  times.render = seconds_between(loaded, rendered);
+
+  ImageFileOptions file = c.file;
+  file.metadata = metadata(scene, frame, c);
+  const std::vector<std::string> names = write_images(c.output, frame.images, file);
+  times.write = seconds_between(rendered, Clock::now());
+  for (const std::string& name : names) {
+    terminal.log(LogLevel::info, fmt::format("{}: {} by {} on {}, {:.3f} s", name, c.scene, frame.technique, frame.device, times.render));
+  }
+  if (c.stats) print_stats(frame, times);
+  if (!c.stats_file.empty()) {
+    const std::string text = stats_json(frame, times, scene.hash);
+    TemporaryFile stats(c.stats_file);
+    stats.write(text.data(), text.size());
+    stats.rename_to_target();
+  }
+  return 0;
+}
+
+int explain(const RenderCommand& c, Terminal& terminal) {
+  RenderSettings settings = c.settings;
+  settings.images = {"beauty"};
+  settings.images.insert(settings.images.end(), c.aovs.begin(), c.aovs.end());
+  fmt::print("{}", explain(load_scene(c.scene, terminal), settings));
+  return 0;
+}
+
+}  // namespace airlight
