@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cstdint>
@@ -88,6 +89,31 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// Whether a face has more than three corners. Checks before assimp works on them: it ends the program where an index is too large or a
+// polygon's corner is not finite.
+bool has_polygons(const std::string& path, const aiScene& scene) {
+  bool found = false;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    if (mesh.mVertices == nullptr) throw InputError(path + ": a mesh without positions");
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D& p = mesh.mVertices[v];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        throw InputError(fmt::format("{}: vertex {}: expected finite coordinates", path, v));
+      }
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      found |= face.mNumIndices > 3;
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] < mesh.mNumVertices) continue;
+        throw InputError(fmt::format("{}: face {}: vertex {}, expected one below {}", path, f, face.mIndices[k], mesh.mNumVertices));
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 struct AssimpFile::State {
@@ -107,8 +133,12 @@ AssimpFile::AssimpFile(const std::string& path, Progress& progress) : state_(std
         extension));
   }
   check_mesh_bytes(path, extension, bytes);
-  importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(path, 0);
   progress.check();  // what stopped a read inside assimp came out as a failure to read
+  if (scene) {
+    if (has_polygons(path, *scene)) importer.ApplyPostProcessing(aiProcess_Triangulate);
+    progress.check();
+  }
   if (!importer.GetScene()) {
     throw InputError(
         fmt::format("{}: not a readable {} file: {}", path, extension.substr(1), one_line(importer.GetErrorString())));
