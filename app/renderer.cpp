@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cfenv>
 #include <map>
 #include <stdexcept>
 #include <thread>
@@ -73,6 +74,21 @@ FrameRequest request_for(const Technique& technique, const Scene& scene, const R
   }
   return request;
 }
+
+// The default floating-point mode while it lives, then the caller's: plans and tables must not depend on it.
+class DefaultFloats {
+ public:
+  DefaultFloats() {
+    std::fegetenv(&before_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~DefaultFloats() { std::fesetenv(&before_); }
+  DefaultFloats(const DefaultFloats&) = delete;
+  DefaultFloats& operator=(const DefaultFloats&) = delete;
+
+ private:
+  std::fenv_t before_{};
+};
 
 using Images = std::map<std::string, HostImage>;
 
@@ -150,6 +166,7 @@ const HostImage& Frame::image(std::string_view name) const {
 }
 
 Frame Renderer::render(const Scene& scene, const RenderSettings& settings, Progress& progress) {
+  const DefaultFloats mode;
   const Technique& technique = chosen_technique(scene, settings);
   FrameRequest request = request_for(technique, scene, settings);
   if (!technique.plan && state_->options.backend != "cpu") {

@@ -59,6 +59,7 @@ HWY_INLINE Real first_lanes() { return hn::ConvertTo(Floats(), hn::Iota(Ints(), 
 
 #define FORMULA HWY_INLINE
 #define OUT(type) type&
+#define EXACT
 
 using real = Real;
 using mask = Mask;
@@ -120,6 +121,7 @@ HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, r
 
 #undef FORMULA
 #undef OUT
+#undef EXACT
 }  // namespace airlight::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

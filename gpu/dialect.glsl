@@ -4,6 +4,7 @@
 #define table int
 #define FORMULA
 #define OUT(type) out type
+#define EXACT precise
 
 // Every table of a step lies in this buffer; a `table` is where it begins.
 layout(std430, binding = 7) readonly buffer Tables { float table_values[]; };

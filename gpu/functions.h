@@ -39,7 +39,6 @@
   X(Enable, ENABLE)                                                 \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)               \
   X(Finish, FINISH)                                                 \
-  X(FrontFace, FRONTFACE)                                           \
   X(GetError, GETERROR)                                             \
   X(GetIntegerv, GETINTEGERV)                                       \
   X(GetInteger64v, GETINTEGER64V)                                   \

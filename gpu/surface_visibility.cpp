@@ -79,12 +79,7 @@ void draw(const SurfaceVisibility& a, StepRunner& r, GLuint hits, const Progress
   gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of the texture is the top row
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
-  if (a.closed) {
-    gl.FrontFace(GL_CCW);
-    gl.Enable(GL_CULL_FACE);
-  } else {
-    gl.Disable(GL_CULL_FACE);
-  }
+  gl.Disable(GL_CULL_FACE);
   for (std::size_t first = 0; first < triangles; first += triangles_a_draw) {
     if (first > 0) {
       gl.Finish();

@@ -13,7 +13,6 @@ struct SurfaceVisibility {
   Buffer normals;    // float[3] a vertex, unit length
   Buffer triangles;  // uint32[4] a triangle: three vertices and the index of its material
   View view;
-  bool closed = false;  // every edge joins two triangles and the camera is outside: those that face away can be left out
 
   Image distance;  // r32f: along the ray [m]; 1e30 where nothing is hit
   Image normal;    // rgb32f: interpolated, unit length, turned to the viewer; 0 where nothing is hit
@@ -27,7 +26,6 @@ struct SurfaceVisibility {
     v(in("normals"), s.normals);
     v(in("triangles"), s.triangles);
     v(knob("view"), s.view);
-    v(knob("closed"), s.closed);
     v(out("distance", "m"), s.distance);
     v(out("normal"), s.normal);
     v(out("material"), s.material);

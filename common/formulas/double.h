@@ -10,6 +10,7 @@ using mask = bool;
 using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
+#define EXACT
 
 inline bool any_lane(mask m) { return m; }
 inline real select(mask m, real a, real b) { return m ? a : b; }
@@ -39,4 +40,5 @@ inline real log_(real x) { return std::log(x); }
 
 #undef FORMULA
 #undef OUT
+#undef EXACT
 }  // namespace airlight::f64

@@ -5,7 +5,7 @@
 FORMULA real exp_(real x) {
   x = min(max(x, -87.0), 88.0);
   real n = round_even(x * 1.44269504088896341);
-  real r = fma(n, real(-0.693145751953125), x);
+  EXACT real r = fma(n, real(-0.693145751953125), x);
   r = fma(n, real(-1.42860682030941723e-6), r);
   real p = fma(r, real(1.394111926e-3), real(8.375134776e-3));
   p = fma(r, p, real(4.166635277e-2));
@@ -30,5 +30,6 @@ FORMULA real log_(real x) {
   p = fma(z, p, real(1.0 / 5.0));
   p = fma(z, p, real(1.0 / 3.0));
   real series = fma(s * z, p * 2.0, s * 2.0);
-  return fma(e, real(0.693145751953125), fma(e, real(1.42860682030941723e-6), series));
+  EXACT real sum = fma(e, real(0.693145751953125), fma(e, real(1.42860682030941723e-6), series));
+  return sum;
 }

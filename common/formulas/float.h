@@ -33,6 +33,7 @@ using mask = bool;
 using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
+#define EXACT
 
 inline bool any_lane(mask m) { return m; }
 inline real select(mask m, real a, real b) { return m ? a : b; }
@@ -61,4 +62,5 @@ inline real weighted_patch(table t, real at, int stride, real a0, real a1, real 
 
 #undef FORMULA
 #undef OUT
+#undef EXACT
 }  // namespace airlight::f32

@@ -18,7 +18,7 @@ FORMULA real unit_distance(real ax, real ay, real az, real bx, real by, real bz)
 // lose its digits.
 FORMULA real phong(real cos_normal_light, real apart, real shininess) {
   real c = max(1.0 - apart, 1e-30);
-  real rounding = (1.0 - c) - apart;  // of 1 - apart, exact where it matters
+  EXACT real rounding = (1.0 - c) - apart;  // of 1 - apart, exact where it matters
   real lobe = exp_(max(shininess * (log_(c) + rounding), -87.0));
   real value = (shininess + 1.0) * 0.15915494309189535 * lobe;
   return select((cos_normal_light > 0.0) && (apart < 1.0), value, real(0.0));

@@ -1,30 +1,19 @@
-// One formula in each of its builds, over arrays: float, every SIMD target, GLSL (double is called directly).
+// The builds of the formulas as what a check asks for: one call over arrays.
 #pragma once
 
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "common/algorithms/view.h"
 #include "cpu/targets.h"
+#include "tests/formulas/checks/check.h"
 
 namespace airlight {
 
-struct PointAirlightInputs {
-  std::vector<float> extinction, foot, h, x0, x1;
-  std::size_t size() const { return extinction.size(); }
-};
-
-// point_airlight() over the inputs, one phase function and its tables.
-std::vector<float> point_airlight_float(Phase, std::span<const float> tables, const PointAirlightInputs&);
-std::vector<float> point_airlight_simd(Phase, std::span<const float> tables, const PointAirlightInputs&, Simd);
-
-// phase_value() at each mu.
-std::vector<float> phase_value_simd(Phase, std::span<const float> mu, Simd);
-
-// exp_ and log_ at each x.
-std::vector<float> exp_simd(std::span<const float> x, Simd);
-std::vector<float> log_simd(std::span<const float> x, Simd);
+Columns run_double(const Calls&);
+Columns run_float(const Calls&);
+Columns run_simd(const Calls&, Simd);
+// On Mesa's llvmpipe, by OSMesa: there on every machine that the tests run on.
+Columns run_glsl(const Calls&);
+std::string glsl_renderer();
 
 }  // namespace airlight

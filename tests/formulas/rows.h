@@ -1,13 +1,12 @@
-// The high-precision tables in tests/data/reference, and how an error is held against a bound.
+// The high-precision tables in tests/data/reference.
 #pragma once
-
-#include <gtest/gtest.h>
 
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/algorithms/view.h"

@@ -1,0 +1,120 @@
+// What is asked of the formulas in every build: each check calls them over arrays by a Run and holds the results against an oracle of its
+// own, in double. No formula file is included by a check, so that the same checks can be turned on damaged ones.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+// The numbers are those of call_formula() in tests/formulas/calls.h.
+enum class Formula : int {
+  exp = 0,
+  log = 1,
+  phase_value = 2,           // mu
+  point_airlight = 3,        // sigma_t, foot, h, x0, x1
+  directional_airlight = 4,  // sigma_t, mu, x0, x1
+  grid_coordinate = 5,       // x, size, n
+  grid_lookup_zero = 6,      // coordinate, n -> lower, weight
+  grid_lookup_clamped = 7,
+  grid_value_zero = 8,       // x, y, z, size in x, y, z; the table: three sizes, then the values, x fastest
+  grid_value_clamped = 9,
+  ray_length = 10,           // distance, sky distance
+  optical_depth = 11,        // length, extinction
+  transmittance = 12,
+  opacity = 13,
+  mean_transmittance = 14,
+  attenuated_length = 15,    // length, extinction
+  point_irradiance = 16,     // l, radius, extinction
+  lambert = 17,
+  unit_distance = 18,        // a, b
+  phong = 19,                // cosine of normal and light, apart, shininess
+  ray_triangle = 20,         // d, a, b, c -> distance, weights of b and c
+  shading_normal = 21,       // d, normals of a, b, c, weights of b and c -> normal
+  image_plane_x = 22,        // i, offset, width, height, tangent
+  image_plane_y = 23,        // j, offset, height, tangent
+  view_ray = 24,             // x, y, right, up, forward -> d
+  perpendicular = 25,        // d, p, least -> foot, h
+};
+constexpr std::size_t most_inputs = 14, most_results = 3;
+
+// Column k holds input or result k of every call. Inputs are numbers that a float holds exactly: no build rounds them.
+using Columns = std::vector<std::vector<double>>;
+
+struct Calls {
+  Formula formula;
+  Columns inputs;
+  Phase phase = {};
+  std::span<const float> table = {};
+};
+
+// A build of the formulas: most_results columns, of which a formula fills the first ones.
+using Run = std::function<Columns(const Calls&)>;
+
+// The largest error, and where.
+struct Measured {
+  double error = 0;
+  std::size_t count = 0;
+  std::string where;
+
+  // NaN is kept as the largest error of all.
+  template <class Where>
+  void add(double e, Where&& place) {
+    ++count;
+    if (e <= error || std::isnan(error)) return;
+    error = e;
+    where = place();
+  }
+};
+
+struct Check {
+  std::string name;
+  std::function<Measured(const Run&)> measure;
+  std::string_view double_bound, float_bound;  // rows of tests/tolerances.h: for the build in double, for every other
+};
+
+// Of every topic, in the order of common/formulas/formulas.h.
+std::vector<Check> all_checks();
+
+void add_elementary_checks(std::vector<Check>&);
+void add_camera_checks(std::vector<Check>&);
+void add_triangle_checks(std::vector<Check>&);
+void add_phase_checks(std::vector<Check>&);
+void add_transmittance_checks(std::vector<Check>&);
+void add_reflection_checks(std::vector<Check>&);
+void add_grid_checks(std::vector<Check>&);
+void add_airlight_checks(std::vector<Check>&);
+
+// The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector instructions.
+inline double as_float(double x) {
+  const volatile float nearest = static_cast<float>(x);
+  return static_cast<double>(nearest);
+}
+
+// Adds one call to the columns.
+template <class... Numbers>
+void add_call(Columns& inputs, Numbers... numbers) {
+  inputs.resize(sizeof...(numbers));
+  std::size_t k = 0;
+  (inputs[k++].push_back(as_float(static_cast<double>(numbers))), ...);
+}
+
+// "name 1.5, name 2" for messages.
+std::string place(std::initializer_list<std::pair<const char*, double>> values);
+
+// |found - truth| / |truth|; a truth of 0 must be met.
+inline double relative_error(double found, double truth) {
+  if (truth == 0) return found == 0 ? 0 : HUGE_VAL;
+  return std::fabs(found / truth - 1);
+}
+
+}  // namespace airlight

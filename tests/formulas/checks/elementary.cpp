@@ -1,0 +1,47 @@
+// exp_ and log_ over their domain, against the C library, in units in the last place of a float.
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "tests/formulas/checks/check.h"
+
+namespace airlight {
+
+namespace {
+
+double ulps(double found, double truth) {
+  if (truth == 0) return found == 0 ? 0 : HUGE_VAL;
+  return std::fabs(found - truth) / std::ldexp(1.0, std::max(std::ilogb(truth), -126) - 23);
+}
+
+Measured measure_exp(const Run& run) {
+  Columns in(1);
+  for (int i = 0; i <= 1750000; ++i) in[0].push_back(as_float(-87 + i * 1e-4));
+  const Columns found = run({Formula::exp, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    m.add(ulps(found[0][i], std::exp(in[0][i])), [&] { return place({{"x", in[0][i]}}); });
+  }
+  return m;
+}
+
+Measured measure_log(const Run& run) {
+  Columns in(1);
+  for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 1021) in[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
+  in[0].push_back(1);
+  const Columns found = run({Formula::log, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    m.add(ulps(found[0][i], std::log(in[0][i])), [&] { return place({{"x", in[0][i]}}); });
+  }
+  return m;
+}
+
+}  // namespace
+
+void add_elementary_checks(std::vector<Check>& checks) {
+  checks.push_back({"exp", measure_exp, "float_ulp_of_double", "exp_ulp"});
+  checks.push_back({"log", measure_log, "float_ulp_of_double", "log_ulp"});
+}
+
+}  // namespace airlight

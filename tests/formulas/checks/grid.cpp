@@ -1,0 +1,142 @@
+// Voxel grids, against their definition: a value at each voxel's centre, linear between centres, an axis at a time.
+#include <algorithm>
+#include <array>
+
+#include "tests/formulas/checks/random.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr std::uint32_t stream = 140;
+
+// Voxel k of n covers [k, k + 1) size / n; the coordinate counts from the first centre. In cells, beside n.
+Measured measure_coordinate(const Run& run) {
+  Random random(stream);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    const double n = std::floor(random.magnitude(1, 1024)), size = random.magnitude(1e-3, 1e4);
+    add_call(in, random.number(-1, 2) * size, size, n);
+  }
+  const Columns found = run({Formula::grid_coordinate, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double cell = in[1][i] / in[2][i], truth = (in[0][i] - cell / 2) / cell;
+    m.add(std::fabs(found[0][i] - truth) / in[2][i], [&] { return place({{"x", in[0][i]}, {"size", in[1][i]}, {"n", in[2][i]}}); });
+  }
+  return m;
+}
+
+// `lower` is an index that may be looked up, and lower + weight the coordinate, held inside.
+Measured measure_lookup(const Run& run, bool clamped) {
+  Random random(stream + 1);
+  Columns in;
+  for (const double n : {1.0, 2.0, 3.0, 64.0, 1000.0}) {
+    for (double c = -3; c <= std::min(n + 3, 70.0); c += 0.25) add_call(in, c, n);
+    for (const double far : {-1e30, -1e9, 1e9, 1e30, n - 1, n}) add_call(in, far, n);
+    for (int i = 0; i < 4000; ++i) add_call(in, random.number(-2, n + 1), n);
+  }
+  const Columns found = run({clamped ? Formula::grid_lookup_clamped : Formula::grid_lookup_zero, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double c = in[0][i], n = in[1][i], lower = found[0][i], weight = found[1][i];
+    const double first = clamped ? 0 : -1, last = clamped ? std::max(n - 2, 0.0) : n - 1;
+    const double held = std::clamp(c, clamped ? 0.0 : -1.0, clamped ? n - 1 : n);
+    const bool good = lower == std::floor(lower) && lower >= first && lower <= last && weight >= 0 && weight <= 1;
+    m.add(good ? std::fabs(lower + weight - held) / n : HUGE_VAL,
+          [&] { return place({{"coordinate", c}, {"n", n}, {"lower", lower}, {"weight", weight}}); });
+  }
+  return m;
+}
+
+struct Grid {
+  std::array<int, 3> n;
+  std::array<double, 3> size;
+  bool exact;  // floats hold the voxels' centres
+  std::vector<float> table = {};
+};
+
+std::vector<Grid> grids() {
+  Random random(stream + 2);
+  std::vector<Grid> all{{{1, 1, 1}, {2, 3, 5}, true},
+                        {{5, 1, 2}, {1.25, 0.5, 4}, true},
+                        {{4, 6, 7}, {3, 0.375, 1.75}, true},
+                        {{13, 8, 3}, {100, 7.7, 0.01}, false}};
+  for (Grid& grid : all) {
+    for (double& s : grid.size) s = as_float(s);
+    for (const int n : grid.n) grid.table.push_back(static_cast<float>(n));
+    for (int i = 0; i < grid.n[0] * grid.n[1] * grid.n[2]; ++i) grid.table.push_back(static_cast<float>(random.number(0.1, 1)));
+  }
+  return all;
+}
+
+// The sum over all voxels of the value times a tent of one cell's width on either side of its centre.
+double sum_of_tents(const Grid& grid, std::array<double, 3> x, bool clamped) {
+  std::array<std::vector<double>, 3> tent;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double n = grid.n[axis], cell = grid.size[axis] / n;
+    if (clamped) x[axis] = std::clamp(x[axis], cell / 2, grid.size[axis] - cell / 2);
+    for (int k = 0; k < grid.n[axis]; ++k) {
+      const double centre = (k + 0.5) * cell;
+      tent[axis].push_back(std::max(0.0, 1 - std::fabs(x[axis] - centre) / cell));
+    }
+  }
+  double sum = 0;
+  std::size_t at = 3;
+  for (const double w : tent[2]) {
+    for (const double v : tent[1]) {
+      for (const double u : tent[0]) sum += static_cast<double>(grid.table[at++]) * u * v * w;
+    }
+  }
+  return sum;
+}
+
+// Beside the largest value, which is 1.
+Measured measure_value(const Run& run, bool clamped) {
+  Random random(stream + 3);
+  Measured m;
+  for (const Grid& grid : grids()) {
+    Columns in;
+    const auto add = [&](double x, double y, double z) {
+      add_call(in, x * grid.size[0], y * grid.size[1], z * grid.size[2], grid.size[0], grid.size[1], grid.size[2]);
+    };
+    for (int k = 0; k < grid.n[2]; ++k) {
+      for (int j = 0; j < grid.n[1]; ++j) {
+        for (int i = 0; i < grid.n[0]; ++i) add((i + 0.5) / grid.n[0], (j + 0.5) / grid.n[1], (k + 0.5) / grid.n[2]);
+      }
+    }
+    const std::size_t centres = in[0].size();
+    for (int i = 0; i < 3000; ++i) add(random.number(-0.7, 1.7), random.number(-0.7, 1.7), random.number(-0.7, 1.7));
+    for (int i = 0; i < 3000; ++i) add(random.number(), random.number(), random.number());
+    const std::size_t outside = in[0].size();
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // half a cell outside the box and beyond
+      for (const double far : {0.5 / grid.n[axis] + 1e-5, 3.0, 1e6}) {
+        for (const double x : {-far, 1 + far}) add(axis == 0 ? x : 0.5, axis == 1 ? x : 0.5, axis == 2 ? x : 0.5);
+      }
+    }
+    const Columns found = run({clamped ? Formula::grid_value_clamped : Formula::grid_value_zero, in, {}, grid.table});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      const auto where = [&] {
+        return place({{"cells in x", static_cast<double>(grid.n[0])}, {"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
+      };
+      m.add(std::fabs(found[0][i] - sum_of_tents(grid, {in[0][i], in[1][i], in[2][i]}, clamped)), where);
+      if (i < centres && grid.exact) m.add(std::fabs(found[0][i] - static_cast<double>(grid.table[3 + i])), where);
+      if (i >= outside && !clamped) m.add(found[0][i] == 0 ? 0 : HUGE_VAL, where);
+    }
+  }
+  return m;
+}
+
+}  // namespace
+
+void add_grid_checks(std::vector<Check>& checks) {
+  const auto lookup = [](bool clamped) { return [=](const Run& run) { return measure_lookup(run, clamped); }; };
+  const auto value = [](bool clamped) { return [=](const Run& run) { return measure_value(run, clamped); }; };
+  checks.push_back({"grid_coordinate", measure_coordinate, "geometry_double", "image_plane"});
+  checks.push_back({"grid_lookup_zero", lookup(false), "geometry_double", "exact_float"});
+  checks.push_back({"grid_lookup_clamped", lookup(true), "geometry_double", "exact_float"});
+  checks.push_back({"grid_value_zero", value(false), "grid_value_double", "grid_value"});
+  checks.push_back({"grid_value_clamped", value(true), "grid_value_double", "grid_value"});
+}
+
+}  // namespace airlight

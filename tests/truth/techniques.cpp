@@ -1,0 +1,96 @@
+// Techniques on both backends against the reference.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "app/airlight.h"
+#include "common/reference/reference.h"
+#include "tests/tolerances.h"
+#include "tests/truth/truth_scenes.h"
+
+namespace airlight {
+namespace {
+
+constexpr Extent extent{160, 120};
+
+struct RelativeError {
+  double off_edges = 0, everywhere = 0;  // sqrt(mean((a-b)^2)) / mean(b) over pixels and channels
+};
+
+class Sum {
+ public:
+  void add(double a, double b) {
+    squares_ += (a - b) * (a - b);
+    truth_ += b;
+    n_ += 1;
+  }
+  double relative_rmse() const { return std::sqrt(squares_ / n_) / (truth_ / n_); }
+
+ private:
+  double squares_ = 0, truth_ = 0, n_ = 0;
+};
+
+RelativeError relative_error(const HostImage& image, const ReferenceFrame& truth, glm::dvec3 (*part)(const ReferencePixel&)) {
+  Sum off_edges, everywhere;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const glm::dvec3 expected = part(truth.pixels[i]);
+    for (int c = 0; c < 3; ++c) {
+      const auto value = static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]);
+      everywhere.add(value, expected[c]);
+      if (!truth.edges[i]) off_edges.add(value, expected[c]);
+    }
+  }
+  return {off_edges.relative_rmse(), everywhere.relative_rmse()};
+}
+
+struct Part {
+  std::string name;
+  glm::dvec3 (*of)(const ReferencePixel&);
+};
+const std::array<Part, 3> parts{{{"beauty", [](const ReferencePixel& p) { return p.beauty(); }},
+                                 {"surface", [](const ReferencePixel& p) { return p.surface; }},
+                                 {"airlight", [](const ReferencePixel& p) { return p.airlight; }}}};
+
+class Techniques : public testing::TestWithParam<TruthScene> {};
+
+// This version of the technique leaves shadows out, so the truth does.
+TEST_P(Techniques, ShadowPlanes) {
+  const Scene scene = GetParam().make();
+  NoProgress progress;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, false}, true, threads, progress);
+  const double share = truth.edge_share();
+  std::printf("%dx%d, %.2f %% of the pixels at edges, truth claims %.1e\n", extent.width, extent.height, 100 * share,
+              truth.error);
+  EXPECT_FALSE(!(share <= tolerance("truth_edge_share")));
+  EXPECT_FALSE(!(truth.error <= 1e-5));
+
+  for (const char* backend : {"cpu", "gl"}) {
+    Renderer renderer({.backend = backend});
+    RenderSettings settings;
+    settings.technique = "shadow-planes";
+    settings.resolution = extent;
+    settings.images = {"beauty", "surface", "airlight"};
+    const Frame frame = renderer.render(scene, settings);
+    for (const Part& part : parts) {
+      const HostImage& image = frame.image(part.name);
+      ASSERT_EQ(image.extent, extent);
+      ASSERT_EQ(image.channels, 3);
+      const RelativeError error = relative_error(image, truth, part.of);
+      std::printf("%-3s %-8s relative RMSE %.5f %% off edges, %.5f %% everywhere\n", backend, part.name.c_str(),
+                  100 * error.off_edges, 100 * error.everywhere);
+      EXPECT_FALSE(!(error.off_edges < tolerance("truth_off_edges"))) << backend << ' ' << part.name;
+      EXPECT_FALSE(!(error.everywhere < tolerance("truth_everywhere"))) << backend << ' ' << part.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, Techniques, testing::ValuesIn(homogeneous_scenes().begin(), homogeneous_scenes().end()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace airlight

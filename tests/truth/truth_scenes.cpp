@@ -1,0 +1,193 @@
+#include "tests/truth/truth_scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <type_traits>
+
+#include "common/scene/load.h"
+#include "common/scene/sha256.h"
+#include "tests/parity/inputs.h"
+#include "tests/truth/scenes.h"
+
+namespace airlight {
+
+namespace {
+
+Surface floor_at(double y, const Material& material) {
+  Mesh mesh;
+  add_parallelogram(mesh, {-8, y, 8}, {16, 0, 0}, {0, 0, -16});
+  return surface(std::move(mesh), material, true);
+}
+
+Material shiny(const glm::vec3& diffuse_part, float specular, float shininess) {
+  return {.diffuse = diffuse_part, .specular = glm::vec3(specular), .shininess = shininess};
+}
+
+Scene bunny_in_fog() {
+  Scene scene = foggy_scene(0.12);
+  scene.camera = {.position = {0.35, 1.25, 4.6}, .look_at = {0, 0.98, 0}, .vertical_fov = 42};
+  scene.sky_distance = 60;
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.35};
+  scene.medium.albedo = {0.95, 0.9, 0.8};
+  scene.medium.ambient = {0.01, 0.012, 0.015};
+  scene.background = {0.02, 0.03, 0.05};
+  scene.lights = {point_light({-1.75, 1.75, 0.6}, {9, 5, 2}, 0.02), point_light({1.6, 2.0, -1.1}, {2, 4, 8}, 0.02)};
+  Surface bunny;
+  NoProgress progress;
+  bunny.mesh = load_mesh("/usr/share/glmark2/models/bunny.obj", false, progress);
+  bunny.transform = glm::translate(glm::dmat4(1), {0, 0.991, 0});
+  bunny.material = shiny({0.62F, 0.58F, 0.52F}, 0.08F, 40);
+  scene.surfaces = {bunny, floor_at(0, diffuse(0.16F, 0.17F, 0.18F))};
+  return scene;
+}
+
+// Background and light are seen through finite fog; the light is a little off a pixel's centre.
+Scene empty_fog_light_in_view() {
+  Scene scene = foggy_scene(0.05);
+  scene.sky_distance = 40;
+  scene.medium.phase = {PhaseKind::mie_hazy, 0};
+  scene.medium.albedo = {0.9, 0.9, 1};
+  scene.background = {0.02, 0.02, 0.04};
+  scene.lights = {point_light({0.43, 0.31, -5}, {10, 7, 4})};
+  return scene;
+}
+
+// Rays run away from the lamp, and along the directional light; those beside the wall never end.
+Scene light_behind_camera() {
+  Scene scene = foggy_scene(0.3);
+  scene.camera = {.position = {0.5, 1.2, 3}, .look_at = {0.3, 0.7, -1}, .vertical_fov = 60};
+  scene.medium.phase = {PhaseKind::rayleigh, 0};
+  scene.medium.albedo = {0.6, 0.7, 0.8};
+  scene.lights = {point_light({0.2, 1.5, 4.2}, {6, 5, 4}), directional_light({-0.3, -0.5, -1}, {0.3, 0.25, 0.2})};
+  scene.surfaces = {surface(box({-1, -1, -2}, {0.6, 1.1, -0.8}), shiny({0.3F, 0.5F, 0.3F}, 0.3F, 60), true),
+                    floor_at(-1, diffuse(0.5F, 0.45F, 0.4F))};
+  return scene;
+}
+
+// Optical depth 25 to the lamp, 35 to the nearest wall, 60 to the farthest corner.
+Scene dense_fog() {
+  Scene scene = foggy_scene(10);
+  scene.medium.albedo = {0.99, 0.95, 0.9};
+  scene.lights = {point_light({0.4, -0.2, -2.46}, {10, 20, 30})};
+  Mesh wall;
+  add_parallelogram(wall, {-2.5, -2.5, -3.5}, {5, 0, -1.5}, {0, 5, 0});
+  scene.surfaces = {surface(std::move(wall), diffuse(0.7F, 0.6F, 0.5F), true)};
+  return scene;
+}
+
+Scene hundred_thousand_triangles() {
+  Scene scene = foggy_scene(0.1);
+  scene.camera = {.position = {0.4, 1.6, 3.2}, .look_at = {0, -0.1, 0}};
+  scene.sky_distance = 50;
+  scene.medium.phase = {PhaseKind::cornette_shanks, 0.7};
+  scene.medium.albedo = {0.9, 0.95, 0.7};
+  scene.medium.ambient = {0.004, 0.004, 0.006};
+  scene.medium.emission = {0.001, 0.0005, 0};
+  scene.background = {0.02, 0.03, 0.05};
+  scene.lights = {point_light({-1.5, 1.4, 0.5}, {8, 6, 4}, 0.01), point_light({1.9, 0.9, -1.5}, {2, 4, 7}),
+                  directional_light({0.2, -1, -0.4}, {0.6, 0.5, 0.7})};
+  Surface torus;
+  torus.mesh = wavy_torus(101000);  // 317 x 158 squares: 100172 triangles
+  torus.transform = glm::scale(glm::rotate(glm::dmat4(1), 0.4, {1, 0, 0.3}), {1, 1.3, 1});
+  torus.material = shiny({0.25F, 0.35F, 0.5F}, 0.3F, 25);
+  scene.surfaces = {floor_at(-1.1, diffuse(0.4F, 0.4F, 0.35F)), torus};
+  return scene;
+}
+
+constexpr TruthScene all_scenes[] = {{"gaussians_behind_box", gaussians_behind_box},
+                                     {"bunny_in_fog", bunny_in_fog},
+                                     {"empty_fog_light_in_view", empty_fog_light_in_view},
+                                     {"light_behind_camera", light_behind_camera},
+                                     {"dense_fog", dense_fog},
+                                     {"hundred_thousand_triangles", hundred_thousand_triangles}};
+
+// Hashes values by their bits, arrays with their sizes.
+class Content {
+ public:
+  template <class T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(T v) {
+    if constexpr (std::is_floating_point_v<T>) v += T(0);  // -0 is 0
+    sha_.add(std::as_bytes(std::span(&v, 1)));
+  }
+  template <glm::length_t n, class T, glm::qualifier q>
+  void add(const glm::vec<n, T, q>& v) {
+    for (glm::length_t i = 0; i < n; ++i) add(v[i]);
+  }
+  template <class T>
+  void add(const std::vector<T>& all) {
+    add(static_cast<std::uint64_t>(all.size()));
+    for (const T& one : all) add(one);
+  }
+
+  // Structured bindings: a new member does not compile until it is thought of here.
+  void add(const Camera& camera) {
+    const auto& [position, look_at, up, vertical_fov, resolution] = camera;  // the resolution is the caller's
+    add(position), add(look_at), add(up), add(vertical_fov);
+  }
+  void add(const Phase& phase) {
+    const auto& [kind, g] = phase;
+    add(kind), add(g);
+  }
+  void add(const Gaussian& gaussian) {
+    const auto& [center, radius, extinction, albedo, emission] = gaussian;
+    add(center), add(radius), add(extinction), add(albedo), add(emission);
+  }
+  void add(const Medium& medium) {
+    const auto& [phase, albedo, ambient, emission, extinction, gaussians] = medium;
+    add(phase), add(albedo), add(ambient), add(emission), add(extinction), add(gaussians);
+  }
+  void add(const LightSource& light) {
+    const auto& [type, name, position, direction, power, radius] = light;
+    add(type), add(position), add(direction), add(power), add(radius);
+  }
+  void add(const Mesh& mesh) {
+    const auto& [positions, normals, triangles] = mesh;
+    add(positions), add(normals), add(triangles);
+  }
+  void add(const Material& material) {
+    const auto& [diffuse_part, specular, shininess] = material;
+    add(diffuse_part), add(specular), add(shininess);
+  }
+  void add(const Surface& s) {
+    const auto& [mesh, transform, casts_shadow, material] = s;
+    add(*mesh), add(casts_shadow), add(material);
+    for (int column = 0; column < 4; ++column) add(transform[column]);
+  }
+  void add(const Scene& scene) {
+    const auto& [camera, sky_distance, medium, lights, surfaces, background, technique, settings, hash] = scene;
+    add(camera), add(sky_distance), add(medium), add(lights), add(surfaces), add(background);
+  }
+  std::string hex() const { return sha_.hex(); }
+
+ private:
+  Sha256 sha_;
+};
+
+}  // namespace
+
+Scene gaussians_behind_box() {
+  Scene scene = foggy_scene(0.08);
+  scene.camera = {.position = {0.2, 0.3, 1}, .look_at = {0, 0.1, -4}, .vertical_fov = 50};
+  scene.sky_distance = 12;
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.4};
+  scene.medium.albedo = {0.9, 0.8, 0.7};
+  scene.medium.ambient = {0.002, 0.003, 0.004};
+  scene.medium.gaussians = {
+      {.center = {-0.6, 0.1, -4}, .radius = 0.9, .extinction = 0.8, .albedo = {1, 0.9, 0.8}, .emission = {0.01, 0.005, 0.002}},
+      {.center = {0.9, -0.3, -5}, .radius = 1.2, .extinction = 0.5, .albedo = {0.7, 0.9, 1}}};
+  scene.lights = {point_light({-1.4, 2.3, -3.6}, {20, 17, 14})};
+  scene.surfaces = {surface(box({-1, 0.7, -4.4}, {-0.3, 1.3, -3.5}), diffuse(0.6F, 0.4F, 0.3F), true)};
+  scene.background = {0.1, 0.1, 0.2};
+  return scene;
+}
+
+std::span<const TruthScene> stored_scenes() { return all_scenes; }
+std::span<const TruthScene> homogeneous_scenes() { return stored_scenes().subspan(1); }
+
+std::string content_hash(const Scene& scene) {
+  Content content;
+  content.add(scene);
+  return content.hex();
+}
+
+}  // namespace airlight

@@ -1,0 +1,167 @@
+// The library keeps no global state: renderers side by side in threads, use after an error, what the caller had set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "app/airlight.h"
+#include "gpu/context.h"
+
+namespace airlight {
+
+namespace {
+
+Scene lamp_in_fog(double extinction) {
+  Scene scene;
+  scene.camera.position = {0, 0, 4};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.resolution = {96, 72};
+  scene.medium.extinction = extinction;
+  LightSource lamp;
+  lamp.position = {0.5, 0.5, 0};
+  lamp.power = {9, 5, 2};
+  scene.lights = {lamp};
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  mesh->normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  mesh->triangles = {{0, 1, 2}};
+  Surface triangle;
+  triangle.mesh = mesh;
+  scene.surfaces = {triangle};
+  return scene;
+}
+
+std::vector<float> beauty(Renderer& renderer, const Scene& scene) { return renderer.render(scene, {}).image("beauty").values; }
+
+class RendererOn : public testing::TestWithParam<std::string> {
+ protected:
+  RendererOptions options() const {
+    RendererOptions o;
+    o.backend = GetParam();
+    o.gl_context = "osmesa";
+    return o;
+  }
+};
+
+TEST_P(RendererOn, TwoInTwoThreadsDoNotDisturbEachOther) {
+  const Scene thin = lamp_in_fog(0.05), dense = lamp_in_fog(0.8);
+  Renderer alone(options());
+  const std::vector<float> expected_thin = beauty(alone, thin), expected_dense = beauty(alone, dense);
+  ASSERT_NE(expected_thin, expected_dense);
+  const auto work = [&](const Scene& scene, const std::vector<float>& expected, int& wrong) {
+    Renderer renderer(options());
+    for (int i = 0; i < 10; ++i) wrong += beauty(renderer, scene) != expected;
+  };
+  int wrong_thin = 0, wrong_dense = 0;
+  std::thread first([&] { work(thin, expected_thin, wrong_thin); }), second([&] { work(dense, expected_dense, wrong_dense); });
+  first.join();
+  second.join();
+  EXPECT_EQ(wrong_thin + wrong_dense, 0);
+}
+
+TEST_P(RendererOn, WorksAfterAnError) {
+  Renderer renderer(options());
+  const Scene scene = lamp_in_fog(0.2);
+  const std::vector<float> expected = beauty(renderer, scene);
+  RenderSettings wrong;
+  wrong.images = {"no such image"};
+  EXPECT_THROW(renderer.render(scene, wrong), InputError);
+  wrong = {};
+  wrong.resolution = Extent{0, 7};
+  EXPECT_THROW(renderer.render(scene, wrong), InputError);
+  Scene gaussian = scene;
+  gaussian.medium.gaussians.emplace_back();
+  EXPECT_THROW(renderer.render(gaussian, {}), InputError);
+  struct Stopped final : Progress {
+    void report(std::string_view, double) override {}
+    bool stop_requested() const override { return true; }
+  } stopped;
+  EXPECT_THROW(renderer.render(lamp_in_fog(0.3), {}, stopped), Interrupted);
+  EXPECT_EQ(beauty(renderer, scene), expected);
+}
+
+TEST_P(RendererOn, LeavesTheCallersRoundingAlone) {
+  Renderer renderer(options());
+  const Scene scene = lamp_in_fog(0.2);
+  const std::vector<float> expected = beauty(renderer, scene);
+  std::fesetround(FE_DOWNWARD);
+  const std::vector<float> found = beauty(renderer, lamp_in_fog(0.2));
+  const int after = std::fegetround();
+  std::fesetround(FE_TONEAREST);
+  EXPECT_EQ(after, FE_DOWNWARD);
+  EXPECT_EQ(found, expected);
+}
+
+TEST_P(RendererOn, MovesBetweenThreads) {
+  Renderer renderer(options());
+  const Scene scene = lamp_in_fog(0.2);
+  const std::vector<float> expected = beauty(renderer, scene);
+  std::vector<float> found;
+  Scene brighter = scene;
+  brighter.lights[0].power *= 2;
+  std::thread([&] {
+    beauty(renderer, brighter);
+    found = beauty(renderer, scene);
+  }).join();
+  EXPECT_EQ(found, expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, RendererOn, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
+
+// What GL says of the buffer that the caller has bound in its own context.
+GLint bound_buffer(const GlContext& context) {
+  GLint name = 0;
+  context.gl().GetIntegerv(0x8894, &name);  // GL_ARRAY_BUFFER_BINDING
+  return name;
+}
+
+TEST(GlContext, TheCallersIsCurrentAgainAfterAFrame) {
+  for (const std::string mine : {"osmesa", "egl"}) {
+    std::unique_ptr<GlContext> callers;
+    try {
+      callers = make_context({.context = mine});
+    } catch (const MachineError& e) {
+      std::printf("skipped: %s\n", e.what());
+      continue;
+    }
+    for (const std::string its : {"osmesa", "egl"}) {
+      const GlContext::Current current(*callers);
+      GLuint buffer = 0;
+      callers->gl().CreateBuffers(1, &buffer);
+      callers->gl().BindBuffer(0x8892, buffer);  // GL_ARRAY_BUFFER
+      ASSERT_EQ(bound_buffer(*callers), static_cast<GLint>(buffer));
+      try {
+        Renderer renderer({.backend = "gl", .gl_context = its});
+        beauty(renderer, lamp_in_fog(0.2));
+        EXPECT_EQ(bound_buffer(*callers), static_cast<GLint>(buffer)) << "a frame by " << its << " within " << mine;
+      } catch (const MachineError& e) {
+        std::printf("skipped: %s\n", e.what());
+      }
+      EXPECT_EQ(bound_buffer(*callers), static_cast<GLint>(buffer));
+    }
+  }
+}
+
+TEST(GlContext, EglGivesTheSameImageAsOsmesa) {
+  try {
+    Renderer egl({.backend = "gl", .gl_context = "egl"}), osmesa({.backend = "gl", .gl_context = "osmesa"});
+    std::printf("%s\n%s\n", egl.describe().c_str(), osmesa.describe().c_str());
+    const std::vector<float> a = beauty(egl, lamp_in_fog(0.2)), b = beauty(osmesa, lamp_in_fog(0.2));
+    double largest = 0, worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      largest = std::max(largest, static_cast<double>(b[i]));
+      worst = std::max(worst, std::fabs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+    }
+    std::printf("largest difference %.3g of the image's maximum\n", worst / largest);
+    EXPECT_FALSE(!(worst <= 1e-4 * largest));
+  } catch (const MachineError& e) {
+    GTEST_SKIP() << "skipped: " << e.what();
+  }
+}
+
+}  // namespace
+
+}  // namespace airlight
