@@ -34,15 +34,15 @@ struct RendererOptions {
 };
 
 struct RenderSettings {
-  std::string technique = "auto";                             // auto: what the scene names, else the first that supports it
-  std::vector<std::pair<std::string, std::string>> knobs;     // name, value; win over the scene's
-  std::optional<Extent> resolution;                           // instead of the camera's
-  int supersample = 1;                                        // 1..16: n x n samples a pixel, averaged
-  std::vector<std::string> images{"beauty"};                  // what to make: see image_names() in common/techniques/technique.h
+  std::string technique = "auto";                          // auto: what the scene names, else the first that supports it
+  std::vector<std::pair<std::string, std::string>> knobs;  // name, value; win over the scene's
+  std::optional<Extent> resolution;                        // instead of the camera's
+  int supersample = 1;                                     // 1..16: n x n samples a pixel, averaged
+  std::vector<std::string> images{"beauty"};               // what to make: see image_names() in common/techniques/technique.h
 };
 
 struct Frame {
-  std::vector<NamedImage> images;                          // in the order asked for
+  std::vector<NamedImage> images;  // in the order asked for
   Stats stats;
   std::string technique;                                   // what ran
   std::vector<std::pair<std::string, std::string>> knobs;  // every knob with its value

@@ -26,8 +26,8 @@ int explain(const RenderCommand&, Terminal&);
 
 struct CompareCommand {
   std::string a, b;
-  std::string image;       // empty: the main one
-  double tolerance = 0;    // of the relative RMSE
+  std::string image;     // empty: the main one
+  double tolerance = 0;  // of the relative RMSE
 };
 int compare(const CompareCommand&);
 

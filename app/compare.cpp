@@ -16,8 +16,8 @@ const HostImage& image_named(const std::vector<NamedImage>& images, const std::s
   return found->image;
 }
 
-// Mean structural similarity (Wang et al. 2004) of the channels' mean, over windows of 8 x 8 pixels, half overlapping. The dynamic range is
-// the second image's largest value. Images smaller than a window: one window.
+// Mean structural similarity (Wang et al. 2004) of the channels' mean, over windows of 8 x 8 pixels, half overlapping. The
+// dynamic range is the second image's largest value. Images smaller than a window: one window.
 double structural_similarity(const HostImage& a, const HostImage& b) {
   double range = 0;
   for (const float v : b.values) range = std::max(range, std::fabs(static_cast<double>(v)));
@@ -55,8 +55,8 @@ int compare(const CompareCommand& c) {
   const std::vector<NamedImage> images_a = read_images(c.a), images_b = read_images(c.b);
   const HostImage &a = image_named(images_a, c.a, name), &b = image_named(images_b, c.b, name);
   if (!(a.extent == b.extent) || a.channels != b.channels) {
-    throw InputError(fmt::format("{}: {} x {} pixels, {} channels; expected those of {}: {} x {}, {}", c.a, a.extent.width, a.extent.height,
-                                 a.channels, c.b, b.extent.width, b.extent.height, b.channels));
+    throw InputError(fmt::format("{}: {} x {} pixels, {} channels; expected those of {}: {} x {}, {}", c.a, a.extent.width,
+                                 a.extent.height, a.channels, c.b, b.extent.width, b.extent.height, b.channels));
   }
   double square = 0, mean = 0, largest = 0;
   std::size_t at = 0, not_numbers = 0;

@@ -1,15 +1,15 @@
-#include <CLI/Version.hpp>
 #include <OpenImageIO/imageio.h>
 #include <assimp/version.h>
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
+#include <CLI/Version.hpp>
 
 #include <thread>
 
 #include "app/command.h"
+#include "common/techniques/technique.h"
 #include "cpu/parallel.h"
 #include "cpu/targets.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 
@@ -36,8 +36,8 @@ int info() {
   fmt::print("techniques:\n");
   for (const Technique& t : techniques()) fmt::print("  {}: {}\n", t.name, t.summary);
   fmt::print("libraries: OpenImageIO {}, assimp {}.{}.{}, Embree {}, Highway {}, {}, fmt {}, CLI11 {}\n",
-             dotted(OIIO::openimageio_version()), aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(), RTC_VERSION_STRING,
-             highway_version(), parallel_library(), dotted(FMT_VERSION), CLI11_VERSION);
+             dotted(OIIO::openimageio_version()), aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(),
+             RTC_VERSION_STRING, highway_version(), parallel_library(), dotted(FMT_VERSION), CLI11_VERSION);
   return 0;
 }
 

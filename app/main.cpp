@@ -1,4 +1,5 @@
-// The program `airlight`: command line, messages, exit codes (0 done, 1 images differ, 2 bad input, 3 the machine cannot, 130 stopped).
+// The program `airlight`: command line, messages, exit codes (0 done, 1 images differ, 2 bad input, 3 the machine cannot, 130
+// stopped).
 #include <CLI/CLI.hpp>
 
 #include <array>
@@ -72,28 +73,42 @@ void add_scene_flags(CLI::App& command, Flags& f) {
   for (const std::string& n : names) list += (list.empty() ? "" : " | ") + n;
   command.add_option("SCENE", f.render.scene, "scene file (JSON, glTF)")->required();
   command.add_option("--technique", f.render.settings.technique, list)->capture_default_str();
-  command.add_option("--set", f.settings, "NAME=VALUE, a setting of the technique; may be repeated")->take_all()->allow_extra_args(false);
-  command.add_option("--aov", f.render.aovs, "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
-                     "airlight, airlight.LIGHT, depth, normal, optical_depth")->delimiter(',');
+  command.add_option("--set", f.settings, "NAME=VALUE, a setting of the technique; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  command
+      .add_option("--aov", f.render.aovs,
+                  "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
+                  "airlight, airlight.LIGHT, depth, normal, optical_depth")
+      ->delimiter(',');
   command.add_option("--resolution", f.resolution, "WIDTHxHEIGHT instead of the camera's");
   command.add_option("--supersample", f.render.settings.supersample, "n x n samples a pixel, 1 to 16")->capture_default_str();
 }
 
 void add_render_flags(CLI::App& command, Flags& f) {
   RenderCommand& r = f.render;
-  command.add_option("-o,--output", r.output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")->required();
+  command.add_option("-o,--output", r.output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")
+      ->required();
   command.add_option("--backend", r.renderer.backend, "cpu | gl")->capture_default_str();
-  command.add_option("--threads", r.renderer.threads, "threads of the CPU, 0: as many as there are")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--threads", r.renderer.threads, "threads of the CPU, 0: as many as there are")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   command.add_option("--simd", r.renderer.simd, "auto | scalar | avx2 | avx512 | neon")->capture_default_str();
-  command.add_option("--gl-context", r.renderer.gl_context, "auto | osmesa | egl; auto is EGL where there is hardware, else OSMesa")->capture_default_str();
+  command
+      .add_option("--gl-context", r.renderer.gl_context, "auto | osmesa | egl; auto is EGL where there is hardware, else OSMesa")
+      ->capture_default_str();
   command.add_option("--gl-device", r.renderer.gl_device, "which EGL device")->check(CLI::Range(0, 1024))->capture_default_str();
-  command.add_option("--exposure", r.file.exposure, "stops, for tone-mapped files")->check(CLI::Range(-100.0, 100.0))->capture_default_str();
+  command.add_option("--exposure", r.file.exposure, "stops, for tone-mapped files")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str();
   command.add_option("--tonemap", r.file.tonemap, "clip | reinhard, for tone-mapped files")->capture_default_str();
   command.add_flag("--stats", r.stats, "print what each step took");
   command.add_option("--stats-json", r.stats_file, "write the same to a file");
   command.add_flag("--explain", r.explain, "print what runs, before it runs");
   command.add_flag("--quiet", f.quiet, "print errors only");
-  command.add_option("--log-level", f.log_level, "error | warning | info | debug")->check(CLI::IsMember({"error", "warning", "info", "debug"}))->capture_default_str();
+  command.add_option("--log-level", f.log_level, "error | warning | info | debug")
+      ->check(CLI::IsMember({"error", "warning", "info", "debug"}))
+      ->capture_default_str();
 }
 
 LogLevel level_of(const Flags& f) {
@@ -109,7 +124,8 @@ void refuse_later_versions(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
     const bool command = i == 1 && std::find(commands.begin(), commands.end(), word) != commands.end();
-    const bool flag = std::any_of(flags.begin(), flags.end(), [&](std::string_view f) { return word == f || word.starts_with(std::string(f) + "="); });
+    const bool flag = std::any_of(flags.begin(), flags.end(),
+                                  [&](std::string_view f) { return word == f || word.starts_with(std::string(f) + "="); });
     if (command || flag) throw InputError(std::string(word.substr(0, word.find('='))) + ": not in this version");
   }
 }
@@ -128,11 +144,15 @@ int run(int argc, char** argv) {
   CLI::App* explain_command = program.add_subcommand("explain", "print what would run, what is left out and why");
   add_scene_flags(*explain_command, f);
   explain_command->footer(knobs_text());
-  CLI::App* compare_command = program.add_subcommand("compare", "compare image A with image B, the truth; exit code 1 beyond the tolerance");
+  CLI::App* compare_command =
+      program.add_subcommand("compare", "compare image A with image B, the truth; exit code 1 beyond the tolerance");
   compare_command->add_option("A", f.compare.a, "image file")->required();
   compare_command->add_option("B", f.compare.b, "image file")->required();
-  compare_command->add_option("--image", f.compare.image, "which of the files' images, for example depth (default: the main one)");
-  compare_command->add_option("--tolerance", f.compare.tolerance, "largest relative RMSE")->check(CLI::NonNegativeNumber)->capture_default_str();
+  compare_command->add_option("--image", f.compare.image,
+                              "which of the files' images, for example depth (default: the main one)");
+  compare_command->add_option("--tolerance", f.compare.tolerance, "largest relative RMSE")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
 
   try {

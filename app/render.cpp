@@ -36,15 +36,16 @@ std::string quoted(std::string_view text) {
 std::string stats_json(const Frame& frame, const Times& times, const std::string& hash) {
   std::string steps, knobs;
   for (const StepStats& s : frame.stats.steps) {
-    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {} }}", steps.empty() ? "" : ",", quoted(s.name),
-                         s.seconds, s.items, s.reused);
+    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {} }}", steps.empty() ? "" : ",",
+                         quoted(s.name), s.seconds, s.items, s.reused);
   }
-  for (const auto& [name, value] : frame.knobs) knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
+  for (const auto& [name, value] : frame.knobs)
+    knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
   return fmt::format(
       "{{\n  \"version\": {}, \"scene\": {},\n  \"technique\": {}, \"settings\": {{ {} }}, \"device\": {},\n"
       "  \"seconds\": {{ \"load\": {}, \"render\": {}, \"steps\": {}, \"write\": {} }},\n  \"steps\": [{}\n  ]\n}}\n",
-      quoted(version()), quoted(hash), quoted(frame.technique), knobs, quoted(frame.device), times.load, times.render, frame.stats.seconds,
-      times.write, steps);
+      quoted(version()), quoted(hash), quoted(frame.technique), knobs, quoted(frame.device), times.load, times.render,
+      frame.stats.seconds, times.write, steps);
 }
 
 void print_stats(const Frame& frame, const Times& times) {
@@ -96,7 +97,8 @@ int render(const RenderCommand& c, Terminal& terminal) {
   const std::vector<std::string> names = write_images(c.output, frame.images, file);
   times.write = seconds_between(rendered, Clock::now());
   for (const std::string& name : names) {
-    terminal.log(LogLevel::info, fmt::format("{}: {} by {} on {}, {:.3f} s", name, c.scene, frame.technique, frame.device, times.render));
+    terminal.log(LogLevel::info,
+                 fmt::format("{}: {} by {} on {}, {:.3f} s", name, c.scene, frame.technique, frame.device, times.render));
   }
   if (c.stats) print_stats(frame, times);
   if (!c.stats_file.empty()) {

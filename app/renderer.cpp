@@ -55,8 +55,7 @@ const Technique& chosen_technique(const Scene& scene, const RenderSettings& sett
 FrameRequest request_for(const Technique& technique, const Scene& scene, const RenderSettings& settings) {
   FrameRequest request;
   request.extent = settings.resolution.value_or(scene.camera.resolution);
-  if (request.extent.width < 1 || request.extent.width > 65535 || request.extent.height < 1 ||
-      request.extent.height > 65535) {
+  if (request.extent.width < 1 || request.extent.width > 65535 || request.extent.height < 1 || request.extent.height > 65535) {
     throw InputError("resolution: expected 1..65535 pixels a side");
   }
   if (settings.supersample < 1 || settings.supersample > 16) throw InputError("supersample: expected 1..16");
@@ -134,8 +133,7 @@ struct Renderer::State {
     return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
 
-  Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats,
-              Progress& progress) {
+  Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats, Progress& progress) {
     Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), stats, progress)
                                    : render_reference(scene, request, threads(), stats, progress);
     for (const std::string& name : request.images) {  // left out because it is black: a light without power
@@ -170,7 +168,8 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& settings, Progr
   const Technique& technique = chosen_technique(scene, settings);
   FrameRequest request = request_for(technique, scene, settings);
   if (!technique.plan && state_->options.backend != "cpu") {
-    throw InputError("technique " + std::string(technique.name) + " runs in double on the CPU, not on backend " + state_->options.backend);
+    throw InputError("technique " + std::string(technique.name) + " runs in double on the CPU, not on backend " +
+                     state_->options.backend);
   }
 
   Frame frame;

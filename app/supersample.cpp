@@ -10,9 +10,8 @@ std::vector<glm::dvec2> subpixel_centres(int n) {
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) centres.emplace_back((i + 0.5) / n - 0.5, (j + 0.5) / n - 0.5);
   }
-  const auto nearest = std::min_element(centres.begin(), centres.end(), [](const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::dot(a, a) < glm::dot(b, b);
-  });
+  const auto nearest = std::min_element(centres.begin(), centres.end(),
+                                        [](const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a, a) < glm::dot(b, b); });
   std::iter_swap(centres.begin(), nearest);
   return centres;
 }

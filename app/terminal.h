@@ -35,8 +35,8 @@ class Terminal final : public Progress {
   std::chrono::steady_clock::time_point last_{};
 };
 
-// Call before any other thread exists. SIGINT and SIGTERM then set `stop`, and end the program with code 130 after 0.15 s if it has not
-// ended by itself, temporary files removed.
+// Call before any other thread exists. SIGINT and SIGTERM then set `stop`, and end the program with code 130 after 0.15 s if it
+// has not ended by itself, temporary files removed.
 void stop_on_signals(Terminal&);
 
 }  // namespace airlight

@@ -1,4 +1,5 @@
-// Whole frames of scene files: every backend side by side in one run, interleaved so that the machine's noise hits all alike; medians.
+// Whole frames of scene files: every backend side by side in one run, interleaved so that the machine's noise hits all alike;
+// medians.
 //   airlight-frames [--repeats N] SCENE...
 #include <fmt/format.h>
 
@@ -32,7 +33,10 @@ std::vector<Row> rows() {
   std::vector<Row> all;
   const auto cpu = [&](const std::string& simd, int threads, bool moves) {
     all.push_back({fmt::format("cpu {} {} threads{}", simd, threads, moves ? ", moving camera" : ""),
-                   Renderer({.backend = "cpu", .simd = simd, .threads = threads}), moves, {}, {}});
+                   Renderer({.backend = "cpu", .simd = simd, .threads = threads}),
+                   moves,
+                   {},
+                   {}});
   };
   const std::vector<Simd> there = available_simd();
   const auto has = [&](Simd s) { return std::find(there.begin(), there.end(), s) != there.end(); };
@@ -47,7 +51,8 @@ std::vector<Row> rows() {
 void measure(const std::string& path, int repeats) {
   const Scene loaded = load_scene(path);
   std::vector<Row> all = rows();
-  fmt::print("{}, {} x {}, median of {} frames [ms]\n", path, loaded.camera.resolution.width, loaded.camera.resolution.height, repeats);
+  fmt::print("{}, {} x {}, median of {} frames [ms]\n", path, loaded.camera.resolution.width, loaded.camera.resolution.height,
+             repeats);
   for (const Row& row : all) fmt::print("# {}: {}\n", row.name, row.renderer.describe());
   for (int i = -2; i < repeats; ++i) {  // two to warm up
     for (Row& row : all) {

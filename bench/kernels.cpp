@@ -1,5 +1,5 @@
-// Every parity case as a benchmark, at 800 x 600, on each backend and SIMD target: warm runs, inputs renamed so that nothing is reused.
-// Cases of one algorithm stand side by side: the ratio of two rows of one run is the figure to quote.
+// Every parity case as a benchmark, at 800 x 600, on each backend and SIMD target: warm runs, inputs renamed so that nothing is
+// reused. Cases of one algorithm stand side by side: the ratio of two rows of one run is the figure to quote.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace airlight {
@@ -35,8 +35,8 @@ struct Image : Handle {
   bool keep = false;
 
   std::size_t floats() const {
-    return static_cast<std::size_t>(extent.width) * static_cast<std::size_t>(extent.height) *
-           static_cast<std::size_t>(layers) * static_cast<std::size_t>(channels(format));
+    return static_cast<std::size_t>(extent.width) * static_cast<std::size_t>(extent.height) * static_cast<std::size_t>(layers) *
+           static_cast<std::size_t>(channels(format));
   }
 };
 
@@ -53,10 +53,13 @@ struct HostImage {
 
   HostImage() = default;
   HostImage(Extent e, int c)
-      : extent(e), channels(c), values(static_cast<std::size_t>(e.width) * static_cast<std::size_t>(e.height) * static_cast<std::size_t>(c)) {}
+      : extent(e),
+        channels(c),
+        values(static_cast<std::size_t>(e.width) * static_cast<std::size_t>(e.height) * static_cast<std::size_t>(c)) {}
   std::size_t index(int x, int y, int c = 0) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width) + static_cast<std::size_t>(x)) *
-               static_cast<std::size_t>(channels) + static_cast<std::size_t>(c);
+               static_cast<std::size_t>(channels) +
+           static_cast<std::size_t>(c);
   }
   float& at(int x, int y, int c = 0) { return values[index(x, y, c)]; }
   float at(int x, int y, int c = 0) const { return values[index(x, y, c)]; }

@@ -47,8 +47,7 @@ struct CpuBackend::State {
   std::vector<Scratch> scratch;                   // by worker
   int threads_that_ran = 0;
 
-  explicit State(const CpuOptions& o)
-      : simd(o.simd), fuse(o.fuse), workers(o.threads > 0 ? o.threads : machine_threads()) {
+  explicit State(const CpuOptions& o) : simd(o.simd), fuse(o.fuse), workers(o.threads > 0 ? o.threads : machine_threads()) {
     scratch.resize(static_cast<std::size_t>(workers.threads()));
   }
 
@@ -99,8 +98,8 @@ std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, const 
 }
 
 void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a) {
-  rasterisers[index].prepare(a, buffer_of<float>(a.positions), buffer_of<float>(a.normals),
-                             buffer_of<std::uint32_t>(a.triangles), simd, workers);
+  rasterisers[index].prepare(a, buffer_of<float>(a.positions), buffer_of<float>(a.normals), buffer_of<std::uint32_t>(a.triangles),
+                             simd, workers);
 }
 
 void CpuBackend::State::run_group(const Group& group, std::span<const Step> steps, std::span<StepStats> stats,

@@ -44,8 +44,8 @@ void HeldImage::each_row_piece(Copy&& copy) const {
     for (int layer = 0; layer < image_.layers; ++layer) {
       for (int c = 0; c < planes; ++c, plane += tile_pixels) {
         for (int y = 0; y < rows; ++y) {
-          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels +
-                                    static_cast<std::size_t>(at.y + y) * width + static_cast<std::size_t>(at.x);
+          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels + static_cast<std::size_t>(at.y + y) * width +
+                                    static_cast<std::size_t>(at.x);
           copy(plane + static_cast<std::ptrdiff_t>(y) * tile_side,
                pixel * static_cast<std::size_t>(planes) + static_cast<std::size_t>(c), columns, planes);
         }

@@ -60,7 +60,8 @@ std::string parallel_library() { return "oneTBB " + std::to_string(TBB_VERSION_M
 
 struct Workers::Pool {
   explicit Pool(int threads) : arena(threads) {
-    // More threads than the machine has cores need leave. Not asked for otherwise: the least of all such controls in the process holds.
+    // More threads than the machine has cores need leave. Not asked for otherwise: the least of all such controls in the process
+    // holds.
     if (threads > tbb::this_task_arena::max_concurrency()) {
       more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     }
@@ -166,9 +167,7 @@ void Workers::loop(int n, const std::function<void(int, int)>& body) {
 #endif
 
 Workers::Workers(int threads)
-    : threads_(std::max(1, threads)),
-      pool_(std::make_unique<Pool>(threads_)),
-      ran_(static_cast<std::size_t>(threads_)) {}
+    : threads_(std::max(1, threads)), pool_(std::make_unique<Pool>(threads_)), ran_(static_cast<std::size_t>(threads_)) {}
 
 Workers::~Workers() = default;
 

@@ -25,8 +25,8 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  // body(i, worker) for i in 0..n-1, in any order and on any worker; worker in 0..threads-1 names the thread's own scratch. The first
-  // exception is rethrown here when all have stopped.
+  // body(i, worker) for i in 0..n-1, in any order and on any worker; worker in 0..threads-1 names the thread's own scratch. The
+  // first exception is rethrown here when all have stopped.
   void each(int n, const std::function<void(int i, int worker)>& body);
 
   // How many different threads have run something in the last each().

@@ -26,8 +26,8 @@ HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {
   const Real x = image_plane_x(column, view.offset.x, width, height, view.tan_half_fov);
   const Real y = image_plane_y(row, view.offset.y, height, view.tan_half_fov);
   Real3 d;
-  view_ray(x, y, view.right.x, view.right.y, view.right.z, view.up.x, view.up.y, view.up.z, view.forward.x,
-           view.forward.y, view.forward.z, d.x, d.y, d.z);
+  view_ray(x, y, view.right.x, view.right.y, view.right.z, view.up.x, view.up.y, view.up.z, view.forward.x, view.forward.y,
+           view.forward.z, d.x, d.y, d.z);
   return d;
 }
 

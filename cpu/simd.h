@@ -1,5 +1,6 @@
-// The SIMD build of the formulas, namespace airlight::HWY_NAMESPACE: one lane a work item, so that every target gives the same bits.
-// Included after hwy/foreach_target.h by each kernel file, anew for every target (so: a guard that toggles, not #pragma once).
+// The SIMD build of the formulas, namespace airlight::HWY_NAMESPACE: one lane a work item, so that every target gives the same
+// bits. Included after hwy/foreach_target.h by each kernel file, anew for every target (so: a guard that toggles, not #pragma
+// once).
 #if defined(AIRLIGHT_CPU_SIMD_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef AIRLIGHT_CPU_SIMD_H
 #undef AIRLIGHT_CPU_SIMD_H
@@ -7,9 +8,9 @@
 #define AIRLIGHT_CPU_SIMD_H
 #endif
 
+#include <hwy/highway.h>
 #include <cmath>
 #include <cstdint>
-#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -81,9 +82,7 @@ HWY_INLINE real fma(real a, real b, real c) {
 }
 HWY_INLINE real round_even(real x) { return hn::Round(x.v); }
 HWY_INLINE IntVec to_int(real x) { return hn::ConvertTo(Ints(), x.v); }
-HWY_INLINE real exp2_int(real n) {
-  return hn::BitCast(Floats(), hn::ShiftLeft<23>(hn::Add(to_int(n), hn::Set(Ints(), 127))));
-}
+HWY_INLINE real exp2_int(real n) { return hn::BitCast(Floats(), hn::ShiftLeft<23>(hn::Add(to_int(n), hn::Set(Ints(), 127)))); }
 HWY_INLINE real exponent_of(real x) {
   return hn::ConvertTo(Floats(), hn::Sub(hn::ShiftRight<23>(hn::BitCast(Ints(), x.v)), hn::Set(Ints(), 127)));
 }
@@ -95,14 +94,14 @@ HWY_INLINE real fetch(table t, real i) { return hn::GatherIndex(Floats(), t, to_
 HWY_INLINE real element(table t, int i) { return t[i]; }
 HWY_INLINE int integer_element(table t, int i) { return static_cast<int>(t[i]); }
 // Neighbouring pixels mostly need the same patch: each different one is read once, for all lanes that need it.
-HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, real a3, real b0, real b1, real b2,
+                               real b3) {
   const Ints di;
   const IntVec index = to_int(at);
   HWY_ALIGN std::int32_t where[lanes];
   hn::Store(index, di, where);
-  const auto row = [&](const float* q) HWY_ATTR {
-    return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3]))));
-  };
+  const auto row = [&](const float* q)
+                       HWY_ATTR { return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3])))); };
   real result = 0.0;
   auto waiting = hn::Eq(index, index);
   do {

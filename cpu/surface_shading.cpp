@@ -82,7 +82,8 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
         const Real diffuse = lambert(cosine) * irradiance;
         for (int c = 0; c < 3; ++c) direct[c] = fma(m.diffuse[c] * diffuse, light.power[c], direct[c]);
         if (glossy) {
-          const Real specular = phong(cosine, unit_distance(mirror.x, mirror.y, mirror.z, l.x, l.y, l.z), m.shininess) * irradiance;
+          const Real specular =
+              phong(cosine, unit_distance(mirror.x, mirror.y, mirror.z, l.x, l.y, l.z), m.shininess) * irradiance;
           for (int c = 0; c < 3; ++c) direct[c] = fma(m.specular[c] * specular, light.power[c], direct[c]);
         }
       }

@@ -13,7 +13,8 @@
 #define AIRLIGHT_CPU_SURFACE_VISIBILITY_CPP
 namespace airlight {
 
-// What the fill of one tile reads and writes. Rows are tile_side apart; a vector may reach past the end of a row, hence the padding.
+// What the fill of one tile reads and writes. Rows are tile_side apart; a vector may reach past the end of a row, hence the
+// padding.
 struct VisibilityTile {
   Tile tile;
   const View* view;
@@ -33,8 +34,8 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-// What the lanes' part of an edge leaves: exact in 64 bits, and held at 2^30, which cannot change the sign of the sum, since the part
-// that varies over the lanes stays below 2^29.
+// What the lanes' part of an edge leaves: exact in 64 bits, and held at 2^30, which cannot change the sign of the sum, since the
+// part that varies over the lanes stays below 2^29.
 HWY_INLINE std::int32_t held(std::int64_t edge) {
   constexpr std::int64_t limit = std::int64_t{1} << 30;
   return static_cast<std::int32_t>(edge < -limit ? -limit : edge > limit ? limit : edge);
@@ -60,9 +61,9 @@ void fill(const PixelTriangle& t, VisibilityTile& s) {
     const Real k_row = static_cast<float>(t.k0 + t.kx * i + t.ky * (s.tile.y + y));
     for (int x = x0; x <= x1; x += lanes) {
       // All three are >= 0 where their bitwise or has no sign.
-      const IntVec sides = hn::Or(hn::Add(hn::Set(di, held(at[0])), across[0]),
-                                  hn::Or(hn::Add(hn::Set(di, held(at[1])), across[1]),
-                                         hn::Add(hn::Set(di, held(at[2])), across[2])));
+      const IntVec sides =
+          hn::Or(hn::Add(hn::Set(di, held(at[0])), across[0]),
+                 hn::Or(hn::Add(hn::Set(di, held(at[1])), across[1]), hn::Add(hn::Set(di, held(at[2])), across[2])));
       const auto covered = hn::And(hn::Gt(sides, none), hn::Gt(hn::Set(di, x1 - x + 1), lane));
       if (!hn::AllFalse(di, covered)) {
         const int p = y * tile_side + x;
@@ -188,8 +189,7 @@ void Rasteriser::prepare(const SurfaceVisibility& a, std::span<const float> posi
   s.setup.run(a, positions, triangles, workers);
 }
 
-void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z,
-                          float* material) const {
+void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material) const {
   const State& s = *state_;
   VisibilityTile view;  // 32 KiB on the stack, written before it is read
   view.tile = tile;

@@ -61,8 +61,8 @@ class TriangleSetup::Projection {
   double scale_;  // [pixel] per unit of the image plane
 };
 
-void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, const Vertex& v0, const Vertex& v1,
-                        const Vertex& v2, std::uint32_t id) const {
+void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, const Vertex& v0, const Vertex& v1, const Vertex& v2,
+                        std::uint32_t id) const {
   const auto low = [](std::int32_t a, std::int32_t b, std::int32_t c) { return std::min(a, std::min(b, c)); };
   const auto high = [](std::int32_t a, std::int32_t b, std::int32_t c) { return std::max(a, std::max(b, c)); };
   const Extent extent = projection.extent();
@@ -74,8 +74,8 @@ void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, cons
   t.y1 = std::min(extent.height - 1, (high(v0.sy, v1.sy, v2.sy) - subpixel / 2) >> 8);
   if (t.x0 > t.x1 || t.y0 > t.y1) return;
 
-  const auto area = static_cast<std::int64_t>(v1.sx - v0.sx) * (v2.sy - v0.sy) -
-                    static_cast<std::int64_t>(v1.sy - v0.sy) * (v2.sx - v0.sx);
+  const auto area =
+      static_cast<std::int64_t>(v1.sx - v0.sx) * (v2.sy - v0.sy) - static_cast<std::int64_t>(v1.sy - v0.sy) * (v2.sx - v0.sx);
   if (area == 0) return;
   const std::array<const Vertex*, 3> corner{&v0, area > 0 ? &v1 : &v2, area > 0 ? &v2 : &v1};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -84,8 +84,8 @@ void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, cons
     t.a[k] = -dy;
     t.b[k] = dx;
     const bool top_left = dy < 0 || (dy == 0 && dx > 0);
-    const std::int64_t at_first = static_cast<std::int64_t>(dx) * (subpixel / 2 - from.sy) -
-                                  static_cast<std::int64_t>(dy) * (subpixel / 2 - from.sx);
+    const std::int64_t at_first =
+        static_cast<std::int64_t>(dx) * (subpixel / 2 - from.sy) - static_cast<std::int64_t>(dy) * (subpixel / 2 - from.sx);
     // at_first + 256 (a i + b j) >= (top_left ? 0 : 1), divided by 256 and rounded down.
     t.q[k] = (at_first - (top_left ? 0 : 1)) >> 8;
   }
@@ -109,16 +109,21 @@ void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, cons
   chunk.triangles.push_back(t);
 }
 
-void TriangleSetup::clip(const Projection& projection, TriangleChunk& chunk, const Vertex& v0, const Vertex& v1,
-                         const Vertex& v2, std::uint32_t id) const {
+void TriangleSetup::clip(const Projection& projection, TriangleChunk& chunk, const Vertex& v0, const Vertex& v1, const Vertex& v2,
+                         std::uint32_t id) const {
   const double reach = projection.reach();
   const auto outside = [&](const Vertex& v, int plane) {  // distance to each of five planes; negative: cut away
     switch (plane) {
-      case 0: return v.z - projection.near();
-      case 1: return v.z * reach - v.x;
-      case 2: return v.z * reach + v.x;
-      case 3: return v.z * reach - v.y;
-      default: return v.z * reach + v.y;
+      case 0:
+        return v.z - projection.near();
+      case 1:
+        return v.z * reach - v.x;
+      case 2:
+        return v.z * reach + v.x;
+      case 3:
+        return v.z * reach - v.y;
+      default:
+        return v.z * reach + v.y;
     }
   };
   std::array<Vertex, 8> polygon{v0, v1, v2}, next;
@@ -188,8 +193,8 @@ std::span<const std::uint32_t> TriangleChunk::of_tile(std::uint32_t tile) const 
   return std::span(members).subspan(begin[k], begin[k + 1] - begin[k]);
 }
 
-void TriangleSetup::run(const SurfaceVisibility& a, std::span<const float> positions,
-                        std::span<const std::uint32_t> triangles, Workers& workers) {
+void TriangleSetup::run(const SurfaceVisibility& a, std::span<const float> positions, std::span<const std::uint32_t> triangles,
+                        Workers& workers) {
   const Projection projection(a);
   const Tiling tiling{a.view.extent};
   const std::size_t vertices = positions.size() / 3, count = triangles.size() / 4;

@@ -48,10 +48,14 @@ std::string highway_version() {
 
 std::string_view name_of(Simd simd) {
   switch (simd) {
-    case Simd::scalar: return "scalar";
-    case Simd::avx2: return "AVX2";
-    case Simd::avx512: return "AVX-512";
-    case Simd::neon: break;
+    case Simd::scalar:
+      return "scalar";
+    case Simd::avx2:
+      return "AVX2";
+    case Simd::avx512:
+      return "AVX-512";
+    case Simd::neon:
+      break;
   }
   return "NEON";
 }

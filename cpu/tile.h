@@ -30,7 +30,7 @@ struct Tiling {
 // What a kernel sees of one tile: its place, and its pixels of each image.
 struct TileView {
   Tile tile;
-  std::vector<float*> images;                  // by handle id; each [layer][channel][tile_pixels]
+  std::vector<float*> images;                       // by handle id; each [layer][channel][tile_pixels]
   std::vector<std::span<const std::byte>> buffers;  // by handle id
 
   float* plane(const Image& image, int channel = 0, int layer = 0) const {

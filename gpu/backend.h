@@ -13,8 +13,9 @@ struct GlOptions {
   int device = 0;                // which EGL device, in the order of its enumeration; other than 0 means EGL for auto
 };
 
-// Throws InputError for an unknown name, MachineError naming in one line what the machine lacks. Falls back nowhere but in `auto`. The
-// backend makes its own context current in each call and restores the caller's afterwards; it may move between threads.
+// Throws InputError for an unknown name, MachineError naming in one line what the machine lacks. Falls back nowhere but in
+// `auto`. The backend makes its own context current in each call and restores the caller's afterwards; it may move between
+// threads.
 std::unique_ptr<Backend> make_gl_backend(const GlOptions&);
 
 }  // namespace airlight

@@ -6,7 +6,8 @@
 
 namespace airlight {
 
-// In this order: Mesa's libraries share one slot for the current context, so OSMesa must not be asked while EGL's context is in it.
+// In this order: Mesa's libraries share one slot for the current context, so OSMesa must not be asked while EGL's context is in
+// it.
 struct GlContext::Current::Saved {
   CurrentEgl egl;
   CurrentOsmesa osmesa;
@@ -45,7 +46,8 @@ void GlContext::load(Resolve resolve, const std::string& kind) {
 
 std::unique_ptr<GlContext> make_context(const GlOptions& options) {
   if (options.context == "osmesa") {
-    if (options.device != 0) throw MachineError("OSMesa has one device, number 0; device " + std::to_string(options.device) + " was asked for");
+    if (options.device != 0)
+      throw MachineError("OSMesa has one device, number 0; device " + std::to_string(options.device) + " was asked for");
     return make_osmesa_context();
   }
   if (options.context == "egl") return make_egl_context(options.device, false);

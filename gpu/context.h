@@ -15,7 +15,8 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  // Renderer, vendor, version, kind: "llvmpipe (LLVM 15.0.6, 256 bits), Mesa/X.org, OpenGL 4.5 (Core Profile) Mesa 22.3.6, OSMesa"
+  // Renderer, vendor, version, kind: "llvmpipe (LLVM 15.0.6, 256 bits), Mesa/X.org, OpenGL 4.5 (Core Profile) Mesa 22.3.6,
+  // OSMesa"
   const std::string& describe() const { return description_; }
   // Valid while a Current of this context lives.
   const GlFunctions& gl() const { return functions_; }
@@ -61,8 +62,8 @@ std::unique_ptr<GlContext> make_osmesa_context();
 // hardware_only: the first device that is hardware, or null where there is none; `device` is not looked at then.
 std::unique_ptr<GlContext> make_egl_context(int device, bool hardware_only);
 
-// What was current in the calling thread; one for each library. The constructor notes it and lets it go, the destructor makes it current
-// again. Nothing happens where the library is not loaded.
+// What was current in the calling thread; one for each library. The constructor notes it and lets it go, the destructor makes it
+// current again. Nothing happens where the library is not loaded.
 struct CurrentEgl {
   void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
   unsigned api = 0;

@@ -88,10 +88,12 @@ class EglContext final : public GlContext {
     if (!has(extensions, "EGL_KHR_no_config_context")) {
       const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
       EGLint found = 0;
-      if (egl_.choose_config(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0) fail(kind, "no configuration for OpenGL");
+      if (egl_.choose_config(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0)
+        fail(kind, "no configuration for OpenGL");
     }
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context_ = egl_.create_context(display, config, EGL_NO_CONTEXT, attributes);
     egl_.bind_api(callers_api);
     if (context_ == EGL_NO_CONTEXT) fail(kind, "no OpenGL 4.5 core context");
@@ -163,7 +165,8 @@ std::unique_ptr<GlContext> make_egl_context(int device, bool hardware_only) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].software) continue;
       try {
-        auto context = std::make_unique<EglContext>(e, display(EGL_PLATFORM_DEVICE_EXT, all[i].device, nullptr), "EGL device " + std::to_string(i));
+        auto context = std::make_unique<EglContext>(e, display(EGL_PLATFORM_DEVICE_EXT, all[i].device, nullptr),
+                                                    "EGL device " + std::to_string(i));
         if (!context->software()) return context;
       } catch (const MachineError&) {
       }
@@ -172,10 +175,12 @@ std::unique_ptr<GlContext> make_egl_context(int device, bool hardware_only) {
   }
   const std::size_t known = all.empty() ? 1 : all.size();
   if (device < 0 || static_cast<std::size_t>(device) >= known) {
-    throw MachineError("EGL: there is no device " + std::to_string(device) + "; devices are numbered 0 to " + std::to_string(known - 1));
+    throw MachineError("EGL: there is no device " + std::to_string(device) + "; devices are numbered 0 to " +
+                       std::to_string(known - 1));
   }
   if (!all.empty()) {
-    return std::make_unique<EglContext>(e, display(EGL_PLATFORM_DEVICE_EXT, all[static_cast<std::size_t>(device)].device, nullptr),
+    return std::make_unique<EglContext>(e,
+                                        display(EGL_PLATFORM_DEVICE_EXT, all[static_cast<std::size_t>(device)].device, nullptr),
                                         "EGL device " + std::to_string(device));
   }
   if (!has(e.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless")) {

@@ -69,7 +69,8 @@ void GlBuffer::fill(std::size_t bytes, const void* data) {
     GLint64 most = 0;
     gl_.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     if (needed > static_cast<std::size_t>(most)) {
-      throw MachineError("this OpenGL holds buffers of at most " + std::to_string(most) + " bytes, not " + std::to_string(needed));
+      throw MachineError("this OpenGL holds buffers of at most " + std::to_string(most) + " bytes, not " +
+                         std::to_string(needed));
     }
     allocated_ = bytes_ = 0;
     gl_.NamedBufferData(name_, static_cast<GLsizeiptr>(needed), nullptr, GL_DYNAMIC_DRAW);

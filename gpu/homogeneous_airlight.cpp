@@ -15,7 +15,11 @@ void run(const HomogeneousAirlight& a, StepRunner& r, const Progress& progress) 
   struct {
     glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
     int phase_kind, unused[3];
-  } const knobs{{a.albedo, a.extinction}, {a.ambient, a.sky_distance}, {a.emission, static_cast<float>(a.phase.g)}, static_cast<int>(a.phase.kind), {}};
+  } const knobs{{a.albedo, a.extinction},
+                {a.ambient, a.sky_distance},
+                {a.emission, static_cast<float>(a.phase.g)},
+                static_cast<int>(a.phase.kind),
+                {}};
   r.block(knobs_binding, knobs);
   r.each_pixel(program, a.airlight.extent, progress);
 }

@@ -54,9 +54,8 @@ Osmesa entries(void* from) {
 class OsmesaContext final : public GlContext {
  public:
   explicit OsmesaContext(const Osmesa& o) : osmesa_(o) {
-    const int attributes[] = {osmesa_format,        osmesa_rgba, osmesa_profile,       osmesa_core_profile,
-                              osmesa_major_version, 4,           osmesa_minor_version, 5,
-                              0};
+    const int attributes[] = {
+        osmesa_format, osmesa_rgba, osmesa_profile, osmesa_core_profile, osmesa_major_version, 4, osmesa_minor_version, 5, 0};
     context_ = osmesa_.create(attributes, nullptr);
     if (context_ == nullptr) throw MachineError("OSMesa: the library gives no OpenGL 4.5 core context");
     try {

@@ -18,8 +18,8 @@ namespace airlight {
 class Program {
  public:
   using Stages = std::vector<std::pair<GLenum, ShaderText>>;
-  // Stages, each GL_VERTEX_SHADER and so on. The context must be current, here and in every call. Throws MachineError with the compiler's
-  // log, file names and lines in it.
+  // Stages, each GL_VERTEX_SHADER and so on. The context must be current, here and in every call. Throws MachineError with the
+  // compiler's log, file names and lines in it.
   Program(const GlFunctions&, const Stages& stages);
   ~Program();
   Program(const Program&) = delete;

@@ -16,7 +16,8 @@ struct Assembly {
   void add(const std::string& file, const std::string& place) {
     const std::optional<std::string_view> content = find(file);
     if (!content) throw std::logic_error(place + ": there is no shader file \"" + file + "\"");
-    if (std::find(open.begin(), open.end(), file) != open.end()) throw std::logic_error(place + ": \"" + file + "\" includes itself");
+    if (std::find(open.begin(), open.end(), file) != open.end())
+      throw std::logic_error(place + ": \"" + file + "\" includes itself");
     open.push_back(file);
     const std::size_t number = result.files.size();
     result.files.push_back(file);

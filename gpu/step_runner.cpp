@@ -8,10 +8,10 @@ namespace airlight {
 
 namespace {
 
-constexpr int tile_width = 16, tile_height = 4;    // a work group, as in gpu/screen.glsl
-constexpr std::int64_t band_pixels = 512 * 1024;   // a band takes llvmpipe less than the 0.2 s in which a stop is promised
-constexpr std::size_t block_lights = 256;          // 8 KiB; GL promises 16
-constexpr std::size_t groups_a_dispatch = 65535;   // what GL promises
+constexpr int tile_width = 16, tile_height = 4;   // a work group, as in gpu/screen.glsl
+constexpr std::int64_t band_pixels = 512 * 1024;  // a band takes llvmpipe less than the 0.2 s in which a stop is promised
+constexpr std::size_t block_lights = 256;         // 8 KiB; GL promises 16
+constexpr std::size_t groups_a_dispatch = 65535;  // what GL promises
 
 struct LightBlock {
   glm::ivec4 count;
@@ -48,7 +48,8 @@ Program& StepRunner::raster(const char* file) {
 
 const Texture& StepRunner::texture(const Image& image) const {
   const auto held = images.find(image);
-  if (held == images.end() || !held->second.texture) throw std::logic_error("a step reads an image that was neither made nor uploaded");
+  if (held == images.end() || !held->second.texture)
+    throw std::logic_error("a step reads an image that was neither made nor uploaded");
   return *held->second.texture;
 }
 

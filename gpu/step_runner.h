@@ -1,5 +1,5 @@
-// What the GL side of an algorithm works with: programs, textures, buffers, and the loop over the pixels. One run() an algorithm, in the
-// file of its name.
+// What the GL side of an algorithm works with: programs, textures, buffers, and the loop over the pixels. One run() an algorithm,
+// in the file of its name.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@
 namespace airlight {
 
 // Where the blocks and buffers stand that gpu/screen.glsl and gpu/dialect.glsl declare.
-constexpr GLuint view_binding = 0, lights_binding = 1, knobs_binding = 2;      // uniform blocks
-constexpr GLuint tables_binding = 7, many_lights_binding = 6;                   // storage buffers
+constexpr GLuint view_binding = 0, lights_binding = 1, knobs_binding = 2;  // uniform blocks
+constexpr GLuint tables_binding = 7, many_lights_binding = 6;              // storage buffers
 
 struct HeldImage {
   Image image;
@@ -48,13 +48,13 @@ class StepRunner {
   Program& compute(const char* file, const std::vector<std::string>& defines);
   Program& raster(const char* file);  // with VERTEX and FRAGMENT defined
 
-  void read(GLuint unit, const Image&);                     // as a texture
-  void write(GLuint unit, const Image&);                    // as an image; absent: nothing
-  void storage(GLuint binding, const Buffer&);              // as a storage buffer
-  void storage(GLuint binding, std::span<const std::byte>); // small values, made for this step
+  void read(GLuint unit, const Image&);                      // as a texture
+  void write(GLuint unit, const Image&);                     // as an image; absent: nothing
+  void storage(GLuint binding, const Buffer&);               // as a storage buffer
+  void storage(GLuint binding, std::span<const std::byte>);  // small values, made for this step
   GLuint buffer_name(const Buffer&) const;
   template <class T>
-  void block(GLuint binding, const T& values) {             // std140
+  void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));
   }
   void view(const View&);

@@ -6,9 +6,9 @@ namespace airlight {
 
 void run(const SurfaceShading& a, StepRunner& r, const Progress& progress) {
   const std::string lights = r.lights(a.lights);
-  Program& program = r.compute("gpu/surface_shading.glsl", {lights, a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : "",
-                                                            a.surface_direct ? "WITH_DIRECT" : "",
-                                                            a.surface_ambient ? "WITH_AMBIENT" : ""});
+  Program& program =
+      r.compute("gpu/surface_shading.glsl", {lights, a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : "",
+                                             a.surface_direct ? "WITH_DIRECT" : "", a.surface_ambient ? "WITH_AMBIENT" : ""});
   r.read(0, a.distance);
   r.read(1, a.normal);
   r.read(2, a.material);

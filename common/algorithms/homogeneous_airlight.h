@@ -9,16 +9,17 @@ namespace airlight {
 
 // Single scattering of unshadowed lights along each pixel's ray in the homogeneous medium, with its ambient and emitted light.
 struct HomogeneousAirlight {
-  Image distance;            // r32f [m], 1e30 on a miss
-  Buffer tables;             // airlight tables of the phase function (common/plan/airlight_tables.h), float; needed by point lights in a medium
+  Image distance;  // r32f [m], 1e30 on a miss
+  Buffer
+      tables;  // airlight tables of the phase function (common/plan/airlight_tables.h), float; needed by point lights in a medium
   std::vector<Light> lights;
   View view;
   Phase phase;
-  float extinction = 0;        // [1/m]
-  float sky_distance = 1e30F;  // [m]; 1e30 and above stand for infinity
-  glm::vec3 albedo{1, 1, 1};   // single-scattering albedo, 0..1
-  glm::vec3 ambient{0, 0, 0};  // [W/m^2/sr] source radiance L_a
-  glm::vec3 emission{0, 0, 0}; // [W/m^3/sr]
+  float extinction = 0;         // [1/m]
+  float sky_distance = 1e30F;   // [m]; 1e30 and above stand for infinity
+  glm::vec3 albedo{1, 1, 1};    // single-scattering albedo, 0..1
+  glm::vec3 ambient{0, 0, 0};   // [W/m^2/sr] source radiance L_a
+  glm::vec3 emission{0, 0, 0};  // [W/m^3/sr]
 
   Image airlight;   // rgb32f: all lights, ambient and emission
   Image per_light;  // rgb32f, a layer a light, without ambient and emission; optional

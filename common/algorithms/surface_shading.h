@@ -15,9 +15,9 @@ struct SurfaceShading {
   std::vector<Material> materials;
   std::vector<Light> lights;
   View view;
-  float extinction = 0;          // [1/m]
-  glm::vec3 ambient{0, 0, 0};    // [W/m^2/sr] source radiance L_a: each surface adds diffuse * L_a
-  glm::vec3 background{0, 0, 0}; // [W/m^2/sr] seen through the transmittance where no surface is hit
+  float extinction = 0;           // [1/m]
+  glm::vec3 ambient{0, 0, 0};     // [W/m^2/sr] source radiance L_a: each surface adds diffuse * L_a
+  glm::vec3 background{0, 0, 0};  // [W/m^2/sr] seen through the transmittance where no surface is hit
 
   Image surface;          // rgb32f: everything below, and the background
   Image surface_direct;   // rgb32f, optional

@@ -40,9 +40,9 @@ struct Phase {
 
 // Lambert + normalised Phong without a cosine on the specular term (docs: HACKING.md, conventions).
 struct Material {
-  glm::vec3 diffuse{0.5F, 0.5F, 0.5F};   // 0..1
-  glm::vec3 specular{0, 0, 0};           // 0..1
-  float shininess = 20;                  // 0..1e4
+  glm::vec3 diffuse{0.5F, 0.5F, 0.5F};  // 0..1
+  glm::vec3 specular{0, 0, 0};          // 0..1
+  float shininess = 20;                 // 0..1e4
 };
 
 }  // namespace airlight

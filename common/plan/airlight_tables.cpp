@@ -16,8 +16,7 @@ namespace {
 struct Rule {
   static constexpr std::array edges{0.0, 1e-4, 5e-4, 2.5e-3, 0.0125, 0.06, 0.25, 0.5, 0.75, 0.94, 0.9875, 0.9975, 1.0};
   static constexpr std::array half{0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
-  static constexpr std::array half_weight{0.36268378337836198, 0.31370664587788729, 0.22238103445337447,
-                                          0.10122853629037626};
+  static constexpr std::array half_weight{0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
   static constexpr std::size_t size = (edges.size() - 1) * 8;
 
   std::array<double, size> node{}, weight{};
@@ -49,9 +48,7 @@ struct ExponentialSum {
 
 constexpr Rule rule;
 
-bool has_peak(Phase phase) {
-  return phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
-}
+bool has_peak(Phase phase) { return phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks; }
 
 double phase_at(Phase phase, double mu) { return f64::phase_value(static_cast<int>(phase.kind), phase.g, mu); }
 
@@ -88,7 +85,8 @@ int airlight_table_nodes(Phase phase, int nodes) {
 
 std::vector<float> airlight_tables(Phase phase, int nodes) {
   const auto n = static_cast<std::size_t>(airlight_table_nodes(phase, nodes));
-  // A peak of width 1 - |g| in angle needs the fine end of the angle axis; without one, 0.6 is best for the layer of N in dense media.
+  // A peak of width 1 - |g| in angle needs the fine end of the angle axis; without one, 0.6 is best for the layer of N in dense
+  // media.
   const bool peaked = has_peak(phase);
   const double width = peaked ? std::clamp(4 * (1 - std::fabs(phase.g)), 0.06, 0.6) : 0.6;
   const double w_beyond = phase.g < 0 ? width : 0.6, w_before = phase.g > 0 ? width : 0.6;

@@ -122,15 +122,13 @@ Geometry geometry_of(const Scene& scene, std::uint32_t first_id) {
   }
   if (g.triangles * 3 >= (std::size_t{1} << 31U)) throw InputError("the surfaces have more than 2^31 indices in all");
   const std::vector<Surface>& surfaces = scene.surfaces;  // shares the meshes, so that the uploads may outlive the scene
-  g.positions = {{{first_id}, g.vertices * sizeof(glm::vec3)},
-                 places.value(),
-                 [surfaces, camera = scene.camera.position] { return positions_bytes(surfaces, camera); }};
-  g.normals = {{{first_id + 1}, g.vertices * sizeof(glm::vec3)},
-               directions.value(),
-               [surfaces] { return normals_bytes(surfaces); }};
-  g.indices = {{{first_id + 2}, g.triangles * 4 * sizeof(std::uint32_t)},
-               indices.value(),
-               [surfaces] { return index_bytes(surfaces); }};
+  g.positions = {{{first_id}, g.vertices * sizeof(glm::vec3)}, places.value(), [surfaces, camera = scene.camera.position] {
+                   return positions_bytes(surfaces, camera);
+                 }};
+  g.normals = {
+      {{first_id + 1}, g.vertices * sizeof(glm::vec3)}, directions.value(), [surfaces] { return normals_bytes(surfaces); }};
+  g.indices = {
+      {{first_id + 2}, g.triangles * 4 * sizeof(std::uint32_t)}, indices.value(), [surfaces] { return index_bytes(surfaces); }};
   return g;
 }
 

@@ -19,7 +19,7 @@ class Hash {
   void bytes(std::span<const std::byte>);
 
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void add(T v) {
     if constexpr (std::is_floating_point_v<T>) v += T(0);  // -0 and 0 are one value
     bytes(std::as_bytes(std::span(&v, 1)));

@@ -7,8 +7,7 @@
 
 namespace airlight {
 
-std::vector<std::uint64_t> step_keys(std::span<const Step> steps,
-                                     const std::function<std::uint64_t(Handle)>& key_of_upload) {
+std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::function<std::uint64_t(Handle)>& key_of_upload) {
   std::map<Handle, std::uint64_t> written;
   std::vector<std::uint64_t> keys;
   for (const Step& step : steps) {

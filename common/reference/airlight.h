@@ -1,5 +1,5 @@
-// What the medium adds to a view ray and takes from it, by quadrature in double. Independent of common/formulas/airlight.h and its
-// tables: nothing here knows the boundary functions.
+// What the medium adds to a view ray and takes from it, by quadrature in double. Independent of common/formulas/airlight.h and
+// its tables: nothing here knows the boundary functions.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,7 +21,7 @@ class RayInMedium {
   // `medium` (relative to the camera) must outlive this; unit direction; length [m], may be infinite.
   RayInMedium(const Medium& medium, const glm::dvec3& direction, double length);
 
-  double depth(double t) const;      // T(camera, t) [1]; infinite where it is
+  double depth(double t) const;  // T(camera, t) [1]; infinite where it is
   double depth() const { return depth(length_); }
   double reach() const { return reach_; }  // [m] no farther than the length: beyond it nothing scatters toward the camera
 

@@ -17,8 +17,8 @@ struct GaussianOnLine {
   double a = 1, c = 0, h = 0, foot = 0;
 
   GaussianOnLine(const Gaussian&, const glm::dvec3& origin, const glm::dvec3& unit_direction);
-  double density(double t) const;                      // [1/m]
-  double depth(double start, double width) const {     // [1]
+  double density(double t) const;                   // [1/m]
+  double depth(double start, double width) const {  // [1]
     return gaussian_line_integral(a, c, h, foot, start, width);
   }
 };

@@ -44,8 +44,8 @@ Reference::Seen Reference::look(const glm::dvec3& d) const {
   const double u = glm::dot(d, glm::cross(b, c)), v = glm::dot(d, glm::cross(c, a)), w = glm::dot(d, glm::cross(a, b));
   const double wb = v / (u + v + w), wc = w / (u + v + w);
   const glm::dvec3 na = all.normal(t, 0), nb = all.normal(t, 1), nc = all.normal(t, 2);
-  f64::shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, seen.normal.x,
-                      seen.normal.y, seen.normal.z);
+  f64::shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, seen.normal.x, seen.normal.y,
+                      seen.normal.z);
   seen.face = glm::normalize(glm::cross(b - a, c - a));
   return seen;
 }
@@ -78,7 +78,9 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
     const double cosine = glm::dot(seen.normal, to_light);
     const glm::dvec3 reflection =
         f64::lambert(cosine) * glm::dvec3(material.diffuse) +
-        f64::phong(cosine, f64::unit_distance(mirror.x, mirror.y, mirror.z, to_light.x, to_light.y, to_light.z), static_cast<double>(material.shininess)) * glm::dvec3(material.specular);
+        f64::phong(cosine, f64::unit_distance(mirror.x, mirror.y, mirror.z, to_light.x, to_light.y, to_light.z),
+                   static_cast<double>(material.shininess)) *
+            glm::dvec3(material.specular);
     pixel.surface_direct += e * light.power * reflection;
   }
   if (!medium_.empty()) pixel.surface_ambient = glm::dvec3(material.diffuse) * medium_.ambient;

@@ -18,16 +18,16 @@ struct ReferenceSettings {
 };
 
 struct ReferencePixel {
-  double depth = 1e30;           // [m] along the ray; 1e30 where nothing is hit
-  glm::dvec3 normal{0};          // unit, turned to the viewer; 0 where nothing is hit
-  int surface_index = -1;        // in Scene::surfaces; -1 where nothing is hit
-  double optical_depth = 0;      // to the surface or over sky_distance; 1e30 where it is infinite
-  double transmittance = 1;      // 0..1
-  glm::dvec3 surface{0};         // [W/m^2/sr] as it reaches the camera: direct + ambient, or the background
+  double depth = 1e30;       // [m] along the ray; 1e30 where nothing is hit
+  glm::dvec3 normal{0};      // unit, turned to the viewer; 0 where nothing is hit
+  int surface_index = -1;    // in Scene::surfaces; -1 where nothing is hit
+  double optical_depth = 0;  // to the surface or over sky_distance; 1e30 where it is infinite
+  double transmittance = 1;  // 0..1
+  glm::dvec3 surface{0};     // [W/m^2/sr] as it reaches the camera: direct + ambient, or the background
   glm::dvec3 surface_direct{0}, surface_ambient{0};
-  glm::dvec3 airlight{0};        // [W/m^2/sr] all lights, ambient and emission
+  glm::dvec3 airlight{0};  // [W/m^2/sr] all lights, ambient and emission
   std::vector<glm::dvec3> airlight_of_light;
-  double error = 0;              // estimated relative error of the worst channel of surface + airlight
+  double error = 0;  // estimated relative error of the worst channel of surface + airlight
 
   glm::dvec3 beauty() const { return surface + airlight; }
 };
@@ -37,9 +37,9 @@ struct ReferenceParts {
   bool surface = true, airlight = true;
 };
 
-// The truth about one scene; const calls may come from any thread. Definitions: single scattering by point and directional lights in the
-// homogeneous medium and Gaussians, direct light on surfaces, r_l as the least distance to a point light. Emission of a Gaussian is its
-// `emission` times exp(-|x-center|^2 / radius^2).
+// The truth about one scene; const calls may come from any thread. Definitions: single scattering by point and directional lights
+// in the homogeneous medium and Gaussians, direct light on surfaces, r_l as the least distance to a point light. Emission of a
+// Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   explicit Reference(const Scene&, const ReferenceSettings& = {});

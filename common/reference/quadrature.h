@@ -7,8 +7,8 @@
 
 namespace airlight {
 
-// Nodes x >= 0 of the 15-point Kronrod rule on -1..1 (mirrored for x > 0) with its weights and those of the 7-point Gauss rule in it
-// (0 elsewhere). Kronrod 1965; digits as in Piessens et al., QUADPACK, 1983, routine qk15.
+// Nodes x >= 0 of the 15-point Kronrod rule on -1..1 (mirrored for x > 0) with its weights and those of the 7-point Gauss rule in
+// it (0 elsewhere). Kronrod 1965; digits as in Piessens et al., QUADPACK, 1983, routine qk15.
 struct KronrodNode {
   double x, kronrod, gauss;
 };
@@ -29,7 +29,8 @@ struct Integral {
 };
 
 // Sum of the integrals of f over [breaks[i], breaks[i+1]] for even i (a list of separate pieces), halved where needed until
-// in each channel the estimated error is at most tolerance * |value|, or 20000 pieces are reached (the error tells). Deterministic.
+// in each channel the estimated error is at most tolerance * |value|, or 20000 pieces are reached (the error tells).
+// Deterministic.
 Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector<double>& pieces, double tolerance);
 
 }  // namespace airlight

@@ -49,14 +49,22 @@ void put(HostImage& image, int x, int y, const glm::dvec3& v) {
 // One pixel's values into every image.
 void put_all(std::map<std::string, HostImage>& images, const Scene& scene, int x, int y, const ReferencePixel& p) {
   for (auto& [name, image] : images) {
-    if (name == "surface") put(image, x, y, p.surface);
-    else if (name == "surface.direct") put(image, x, y, p.surface_direct);
-    else if (name == "surface.ambient") put(image, x, y, p.surface_ambient);
-    else if (name == "airlight") put(image, x, y, p.airlight);
-    else if (name == "normal") put(image, x, y, p.normal);
-    else if (name == "depth") image.at(x, y) = static_cast<float>(p.depth);
-    else if (name == "transmittance") image.at(x, y) = static_cast<float>(p.transmittance);
-    else if (name == "optical_depth") image.at(x, y) = static_cast<float>(p.optical_depth);
+    if (name == "surface")
+      put(image, x, y, p.surface);
+    else if (name == "surface.direct")
+      put(image, x, y, p.surface_direct);
+    else if (name == "surface.ambient")
+      put(image, x, y, p.surface_ambient);
+    else if (name == "airlight")
+      put(image, x, y, p.airlight);
+    else if (name == "normal")
+      put(image, x, y, p.normal);
+    else if (name == "depth")
+      image.at(x, y) = static_cast<float>(p.depth);
+    else if (name == "transmittance")
+      image.at(x, y) = static_cast<float>(p.transmittance);
+    else if (name == "optical_depth")
+      image.at(x, y) = static_cast<float>(p.optical_depth);
     else if (name == "beauty") {
       // The sum of the stored floats, as every technique composes it.
       const glm::vec3 surface(p.surface), airlight(p.airlight);
@@ -120,7 +128,8 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   stats.seconds += seconds.count();
   stats.steps.push_back({"reference", seconds.count(),
-                         static_cast<std::uint64_t>(request.extent.width) * static_cast<std::uint64_t>(request.extent.height), false});
+                         static_cast<std::uint64_t>(request.extent.width) * static_cast<std::uint64_t>(request.extent.height),
+                         false});
   return images;
 }
 

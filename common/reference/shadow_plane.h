@@ -8,8 +8,8 @@
 
 namespace airlight {
 
-// Coordinates in the plane: x along the ray, y toward the light. A point light is at (foot, height); light of a directional one comes
-// from (cosine, sine).
+// Coordinates in the plane: x along the ray, y toward the light. A point light is at (foot, height); light of a directional one
+// comes from (cosine, sine).
 class ShadowPlane {
  public:
   // Ray from the camera along a unit direction over 0..length (may be infinite).
@@ -22,8 +22,8 @@ class ShadowPlane {
   // False only for boxes that touch no line from the ray's part 0..length to the light.
   bool meets(const Triangles::Box&) const;
 
-  // Shadow of a triangle on the ray's line; empty (begin > end) where it throws none. Triangles that share an edge get the same end
-  // there, bit for bit.
+  // Shadow of a triangle on the ray's line; empty (begin > end) where it throws none. Triangles that share an edge get the same
+  // end there, bit for bit.
   Interval shadow(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
 
  private:
@@ -40,10 +40,10 @@ class ShadowPlane {
   void add_shadow(Point, Point, Interval&) const;
 
   glm::dvec3 along_, toward_, normal_;
-  double foot_ = 0, height_ = 0;      // point light; height is infinite for a directional one
-  double cosine_ = 0, sine_ = 0;      // directional light
+  double foot_ = 0, height_ = 0;  // point light; height is infinite for a directional one
+  double cosine_ = 0, sine_ = 0;  // directional light
   bool directional_ = false, degenerate_ = false;
-  Side before_, behind_;              // beyond the lines from the ray's two ends to the light
+  Side before_, behind_;  // beyond the lines from the ray's two ends to the light
 };
 
 }  // namespace airlight

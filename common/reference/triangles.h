@@ -11,8 +11,8 @@
 
 namespace airlight {
 
-// Embree builds the hierarchy (its boxes are float, enlarged beyond any rounding); it is walked, and every triangle in it is tested, in double.
-// No Embree object outlives the constructor.
+// Embree builds the hierarchy (its boxes are float, enlarged beyond any rounding); it is walked, and every triangle in it is
+// tested, in double. No Embree object outlives the constructor.
 class Triangles {
  public:
   struct Triangle {
@@ -27,7 +27,9 @@ class Triangles {
 
   std::size_t size() const { return triangles_.size(); }
   const Triangle& operator[](std::size_t i) const { return triangles_[i]; }
-  const glm::dvec3& position(const Triangle& t, int corner) const { return positions_[t.corner[static_cast<std::size_t>(corner)]]; }
+  const glm::dvec3& position(const Triangle& t, int corner) const {
+    return positions_[t.corner[static_cast<std::size_t>(corner)]];
+  }
   const glm::dvec3& normal(const Triangle& t, int corner) const { return normals_[t.corner[static_cast<std::size_t>(corner)]]; }
 
   // visit(triangle index) for each triangle in a box that meets(box) accepts; stops when visit returns false.

@@ -68,7 +68,8 @@ std::optional<Hit> Visibility::nearest(const glm::dvec3& direction, double from)
   Hit best{infinity, 0};
   triangles_.walk(LineMeets(glm::dvec3(0), direction, from, best.distance), [&](std::uint32_t i) {
     const auto& t = triangles_[i];
-    const double at = line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
+    const double at =
+        line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
     if (at >= from && (at < best.distance || (at == best.distance && i < best.triangle))) best = {at, i};
     return true;
   });
@@ -102,13 +103,15 @@ std::vector<Interval> Visibility::shadows(const glm::dvec3& direction, double le
   if (plane.degenerate()) {
     found = shadows_along_light(direction, light, plane.foot());
   } else {
-    triangles_.walk([&](const Triangles::Box& box) { return plane.meets(box); }, [&](std::uint32_t i) {
-      if (!casts(i)) return true;
-      const auto& t = triangles_[i];
-      const Interval shadow = plane.shadow(triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
-      if (shadow.first < length && shadow.second > 0) found.push_back(shadow);
-      return true;
-    });
+    triangles_.walk([&](const Triangles::Box& box) { return plane.meets(box); },
+                    [&](std::uint32_t i) {
+                      if (!casts(i)) return true;
+                      const auto& t = triangles_[i];
+                      const Interval shadow =
+                          plane.shadow(triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
+                      if (shadow.first < length && shadow.second > 0) found.push_back(shadow);
+                      return true;
+                    });
   }
 
   // Neighbouring triangles leave no gap between their shadows: gaps of rounding size are closed.
@@ -126,13 +129,15 @@ std::vector<Interval> Visibility::shadows(const glm::dvec3& direction, double le
 }
 
 // The ray and the light in one line: a caster across it at t darkens all that lies behind it as seen from the light.
-std::vector<Interval> Visibility::shadows_along_light(const glm::dvec3& direction, const RelativeLight& light, double foot) const {
+std::vector<Interval> Visibility::shadows_along_light(const glm::dvec3& direction, const RelativeLight& light,
+                                                      double foot) const {
   const double source = light.directional ? (glm::dot(light.vector, direction) < 0 ? infinity : -infinity) : foot;
   std::vector<Interval> found;
   triangles_.walk(LineMeets(glm::dvec3(0), direction, -infinity, infinity), [&](std::uint32_t i) {
     if (!casts(i)) return true;
     const auto& t = triangles_[i];
-    const double at = line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
+    const double at =
+        line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
     if (at < source) found.emplace_back(-infinity, at);
     if (at > source) found.emplace_back(at, infinity);
     return true;

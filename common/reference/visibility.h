@@ -35,8 +35,8 @@ class Visibility {
 
   const Triangles& triangles() const { return triangles_; }
 
-  // The nearest triangle on a ray from the camera along a unit direction, no nearer than `from` [m]. Edges belong to both their triangles, so that
-  // no ray slips between two of them; of equal distances the lower triangle wins.
+  // The nearest triangle on a ray from the camera along a unit direction, no nearer than `from` [m]. Edges belong to both their
+  // triangles, so that no ray slips between two of them; of equal distances the lower triangle wins.
   std::optional<Hit> nearest(const glm::dvec3& direction, double from) const;
 
   // Whether a caster other than triangle `own` stands between a surface point and the light.

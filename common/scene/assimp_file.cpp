@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -89,8 +89,8 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// Whether a face has more than three corners. Checks before assimp works on them: it ends the program where an index is too large or a
-// polygon's corner is not finite.
+// Whether a face has more than three corners. Checks before assimp works on them: it ends the program where an index is too large
+// or a polygon's corner is not finite.
 bool has_polygons(const std::string& path, const aiScene& scene) {
   bool found = false;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -107,7 +107,8 @@ bool has_polygons(const std::string& path, const aiScene& scene) {
       found |= face.mNumIndices > 3;
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
         if (face.mIndices[k] < mesh.mNumVertices) continue;
-        throw InputError(fmt::format("{}: face {}: vertex {}, expected one below {}", path, f, face.mIndices[k], mesh.mNumVertices));
+        throw InputError(
+            fmt::format("{}: face {}: vertex {}, expected one below {}", path, f, face.mIndices[k], mesh.mNumVertices));
       }
     }
   }
@@ -129,8 +130,7 @@ AssimpFile::AssimpFile(const std::string& path, Progress& progress) : state_(std
   if (bytes.empty()) throw InputError(path + ": an empty file, expected a mesh");
   if (extension.size() < 2 || !importer.IsExtensionSupported(extension)) {
     throw InputError(fmt::format(
-        "{}: unknown mesh format \"{}\", expected obj, ply, stl, gltf, glb, 3ds or another that assimp reads", path,
-        extension));
+        "{}: unknown mesh format \"{}\", expected obj, ply, stl, gltf, glb, 3ds or another that assimp reads", path, extension));
   }
   check_mesh_bytes(path, extension, bytes);
   const aiScene* scene = importer.ReadFile(path, 0);

@@ -16,8 +16,7 @@ std::string read_file(const std::string& path, std::uint64_t most) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw InputError(path + ": no such file");
-  if (status.type() == std::filesystem::file_type::directory)
-    throw InputError(path + ": is a directory, expected a file");
+  if (status.type() == std::filesystem::file_type::directory) throw InputError(path + ": is a directory, expected a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
 

@@ -34,8 +34,7 @@ const json::Value* member(const json::Value& object, std::string_view key) {
 // Reads what the scene needs and passes over everything else that glTF allows.
 class GltfReader {
  public:
-  GltfReader(const json::Value& root, const std::string& file, Scene& scene)
-      : root_(root), file_(file), scene_(scene) {}
+  GltfReader(const json::Value& root, const std::string& file, Scene& scene) : root_(root), file_(file), scene_(scene) {}
 
   void read() {
     const json::Value* chosen = member(root_, "scene");
@@ -138,8 +137,7 @@ class GltfReader {
     LightSource l;
     glm::dvec3 color(1);
     double intensity = 1;
-    if (const json::Value* c = member(node.value(), "color"))
-      color = Node(*c, file_, node.path() + ".color").vec3({0, 1e6, ""});
+    if (const json::Value* c = member(node.value(), "color")) color = Node(*c, file_, node.path() + ".color").vec3({0, 1e6, ""});
     if (const json::Value* v = member(node.value(), "intensity")) {
       intensity = Node(*v, file_, node.path() + ".intensity").number({0, 1e8, kind == "point" ? "cd" : "lx"});
     }

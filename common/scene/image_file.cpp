@@ -74,8 +74,8 @@ OIIO::ImageSpec spec_for(const Channels& content, const std::string& extension, 
 
 void check(const std::string& path, const HostImage& image) {
   if (image.extent.width < 1 || image.extent.height < 1 || image.extent.width > 65535 || image.extent.height > 65535) {
-    throw InputError(fmt::format("{}: an image of {} x {} pixels, expected 1..65535 a side", path, image.extent.width,
-                                 image.extent.height));
+    throw InputError(
+        fmt::format("{}: an image of {} x {} pixels, expected 1..65535 a side", path, image.extent.width, image.extent.height));
   }
   if (image.channels != 1 && image.channels != 3)
     throw InputError(fmt::format("{}: {} channels, expected 1 or 3", path, image.channels));
@@ -99,8 +99,8 @@ std::vector<unsigned char> encoded(const std::string& path, const Channels& cont
   if (holds_floats(extension)) {
     good = good && output->write_image(OIIO::TypeDesc::FLOAT, image.values.data());
   } else {
-    good = good && output->write_image(OIIO::TypeDesc::UINT8,
-                                       tone_mapped(image, options.exposure, options.tonemap == "reinhard").data());
+    good = good &&
+           output->write_image(OIIO::TypeDesc::UINT8, tone_mapped(image, options.exposure, options.tonemap == "reinhard").data());
   }
   good = output->close() && good;
   if (!good) throw MachineError(fmt::format("{}: encoding failed: {}", path, one_line(output->geterror())));
@@ -112,8 +112,8 @@ std::vector<unsigned char> encoded(const std::string& path, const Channels& cont
 void check_image_path(const std::string& path, const ImageFileOptions& options) {
   const std::string extension = lower_extension(path);
   if (!holds_floats(extension) && !holds_bytes(extension)) {
-    throw InputError(fmt::format(
-        "{}: unknown image format \"{}\", expected exr, pfm, tif, hdr, png, jpg, bmp, tga or ppm", path, extension));
+    throw InputError(
+        fmt::format("{}: unknown image format \"{}\", expected exr, pfm, tif, hdr, png, jpg, bmp, tga or ppm", path, extension));
   }
   if (options.tonemap != "clip" && options.tonemap != "reinhard") {
     throw InputError(fmt::format("unknown tone map \"{}\", expected clip or reinhard", options.tonemap));
@@ -128,7 +128,8 @@ void write_image(const std::string& path, const HostImage& image, const ImageFil
   write_images(path, std::span(&only, 1), options);
 }
 
-std::vector<std::string> write_images(const std::string& path, std::span<const NamedImage> images, const ImageFileOptions& options) {
+std::vector<std::string> write_images(const std::string& path, std::span<const NamedImage> images,
+                                      const ImageFileOptions& options) {
   check_image_path(path, options);
   if (images.empty()) throw InputError(path + ": no image to write");
   for (const NamedImage& i : images) {
@@ -152,14 +153,16 @@ std::vector<std::string> write_images(const std::string& path, std::span<const N
     std::size_t first = 0;
     for (const NamedImage& i : images) {
       const auto own = static_cast<std::size_t>(i.image.channels);
-      for (std::size_t k = 0; k < i.image.values.size(); ++k) all.image.values[k / own * channels + first + k % own] = i.image.values[k];
+      for (std::size_t k = 0; k < i.image.values.size(); ++k)
+        all.image.values[k / own * channels + first + k % own] = i.image.values[k];
       first += own;
     }
     outputs.push_back({path, std::move(all), nullptr});
   } else {
     const std::filesystem::path whole(path);
     for (const NamedImage& i : images) {
-      const std::string name = outputs.empty() ? path : (whole.parent_path() / whole.stem()).string() + "." + i.name + whole.extension().string();
+      const std::string name =
+          outputs.empty() ? path : (whole.parent_path() / whole.stem()).string() + "." + i.name + whole.extension().string();
       outputs.push_back({name, {i.image, channel_names("", i.image.channels)}, nullptr});
     }
   }
@@ -181,8 +184,7 @@ Channels read_channels(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) throw InputError(path + ": no such file");
-  if (status.type() == std::filesystem::file_type::directory)
-    throw InputError(path + ": is a directory, expected an image file");
+  if (status.type() == std::filesystem::file_type::directory) throw InputError(path + ": is a directory, expected an image file");
   if (lower_extension(path) == "pfm") {
     HostImage image = decoded_pfm(path, read_file(path, std::uint64_t{1} << 36U));
     const int count = image.channels;
@@ -191,10 +193,10 @@ Channels read_channels(const std::string& path) {
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input) throw InputError(fmt::format("{}: not a readable image: {}", path, one_line(OIIO::geterror())));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.width > 65535 || spec.height > 65535 ||
-      spec.nchannels < 1 || spec.nchannels > 64) {
-    throw InputError(fmt::format("{}: {} x {} pixels, {} channels; expected 1..65535 a side, 1..64 channels", path,
-                                 spec.width, spec.height, spec.nchannels));
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.width > 65535 || spec.height > 65535 || spec.nchannels < 1 ||
+      spec.nchannels > 64) {
+    throw InputError(fmt::format("{}: {} x {} pixels, {} channels; expected 1..65535 a side, 1..64 channels", path, spec.width,
+                                 spec.height, spec.nchannels));
   }
   HostImage image({spec.width, spec.height}, spec.nchannels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data())) {

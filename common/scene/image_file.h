@@ -11,19 +11,20 @@
 namespace airlight {
 
 struct ImageFileOptions {
-  double exposure = 0;             // [stops], for formats of 8 or 16 bits
-  std::string tonemap = "clip";    // clip | reinhard, for those formats
+  double exposure = 0;                                        // [stops], for formats of 8 or 16 bits
+  std::string tonemap = "clip";                               // clip | reinhard, for those formats
   std::vector<std::pair<std::string, std::string>> metadata;  // name, value; nothing that changes from run to run
 };
 
-// Writes one image (1 or 3 channels): the extension says the format (EXR, PFM ... float linear; PNG, JPEG ... exposure, tone map, sRGB curve, round half up).
-// The file appears under its name only when complete (temporary name in the same folder, then renamed), its bytes depend on nothing but
-// the arguments. Throws InputError for an unknown format or a folder that cannot be written, MachineError when the disk is full.
+// Writes one image (1 or 3 channels): the extension says the format (EXR, PFM ... float linear; PNG, JPEG ... exposure, tone map,
+// sRGB curve, round half up). The file appears under its name only when complete (temporary name in the same folder, then
+// renamed), its bytes depend on nothing but the arguments. Throws InputError for an unknown format or a folder that cannot be
+// written, MachineError when the disk is full.
 void write_image(const std::string& path, const HostImage&, const ImageFileOptions&);
 
-// Writes several images of one extent, as write_image() does. EXR: one file, the first image in the channels R G B (or Y), each other in
-// NAME.R ... Other formats: one file an image, the first as `path`, each other with its name before the extension (fog.depth.png); none
-// appears before all are complete. Returns the names of the files.
+// Writes several images of one extent, as write_image() does. EXR: one file, the first image in the channels R G B (or Y), each
+// other in NAME.R ... Other formats: one file an image, the first as `path`, each other with its name before the extension
+// (fog.depth.png); none appears before all are complete. Returns the names of the files.
 std::vector<std::string> write_images(const std::string& path, std::span<const NamedImage>, const ImageFileOptions&);
 
 // What write_images() would refuse of a path and options, before the work of making an image. Throws InputError.

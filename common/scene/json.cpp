@@ -84,14 +84,13 @@ class Builder {
     key_.assign(text, length);
     key_place_ = places_.at(offset_of(text) - 1);
     if (open_.back()->items.size() == most_members) {
-      throw InputError(
-          message(name_, key_place_, fmt::format("an object of more than {} keys, expected fewer", most_members)));
+      throw InputError(message(name_, key_place_, fmt::format("an object of more than {} keys, expected fewer", most_members)));
     }
     for (const Value& other : open_.back()->items) {
       if (other.key != key_) continue;
-      throw InputError(message(name_, key_place_,
-                               fmt::format("duplicate key {}, expected it once (it is also in line {})", quoted(key_),
-                                           other.key_place.line)));
+      throw InputError(
+          message(name_, key_place_,
+                  fmt::format("duplicate key {}, expected it once (it is also in line {})", quoted(key_), other.key_place.line)));
     }
     return true;
   }
@@ -216,8 +215,8 @@ Value parse(std::string_view text, const std::string& name) {
   Stream stream(buffer.data());
   Builder builder(text, stream, name);
   rapidjson::Reader reader;
-  constexpr unsigned flags = rapidjson::kParseInsituFlag | rapidjson::kParseCommentsFlag |
-                             rapidjson::kParseNumbersAsStringsFlag | rapidjson::kParseValidateEncodingFlag;
+  constexpr unsigned flags = rapidjson::kParseInsituFlag | rapidjson::kParseCommentsFlag | rapidjson::kParseNumbersAsStringsFlag |
+                             rapidjson::kParseValidateEncodingFlag;
   if (!reader.Parse<flags>(stream, builder)) {
     // The reader stops inside a misspelt word; the place is its first letter.
     std::size_t at = reader.GetErrorOffset();

@@ -18,8 +18,8 @@ constexpr std::uint64_t most_scene_bytes = std::uint64_t{256} << 20U;
 
 // Knobs go on as text; their technique checks them when it is known which one runs.
 void parse_technique(const Node& node, Scene& scene) {
-  static constexpr auto names = keys("auto", "shadow-planes", "gaussian-airlight", "opacity-propagation",
-                                     "illumination-network", "marching", "reference");
+  static constexpr auto names =
+      keys("auto", "shadow-planes", "gaussian-airlight", "opacity-propagation", "illumination-network", "marching", "reference");
   if (node.value().kind != json::Kind::object) node.fail("expected an object");
   for (const json::Value& member : node.value().items) {
     const Node knob(member, node.file(), "technique." + member.key);

@@ -44,8 +44,7 @@ void check_glb(const std::string& path, std::string_view bytes) {
     if (at + 8 > length) ends_early(path, bytes.size(), "a chunk's header", at + 8);
     const std::uint64_t end = at + 8 + std::uint64_t{little_endian(bytes, at)};
     if (end > length)
-      throw InputError(
-          fmt::format("{}: byte {}: a chunk to byte {}, expected its end before byte {}", path, at, end, length));
+      throw InputError(fmt::format("{}: byte {}: a chunk to byte {}, expected its end before byte {}", path, at, end, length));
     at = static_cast<std::size_t>(end);
   }
 }
@@ -78,8 +77,7 @@ void check_ply(const std::string& path, std::string_view bytes) {
     const std::size_t end = bytes.find('\n', at);
     ++line_number;
     if (end == bytes.npos)
-      throw InputError(
-          fmt::format("{}:{}: the header ends at byte {}, expected end_header", path, line_number, bytes.size()));
+      throw InputError(fmt::format("{}:{}: the header ends at byte {}, expected end_header", path, line_number, bytes.size()));
     const std::vector<std::string_view> w = words(bytes.substr(at, end - at));
     at = end + 1;
     if (w.empty()) continue;

@@ -35,9 +35,8 @@ class Check {
       const bool tiny = error == std::errc::result_out_of_range && word.find("e-") != word.npos;
       if (tiny) continue;
       if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(v)) {
-        throw InputError(fmt::format("{}:{}: vertex {}: {} for coordinate {}, expected three finite numbers", path_,
-                                     number, vertices_ + 1, word.empty() ? "nothing" : std::string(word.substr(0, 40)),
-                                     i + 1));
+        throw InputError(fmt::format("{}:{}: vertex {}: {} for coordinate {}, expected three finite numbers", path_, number,
+                                     vertices_ + 1, word.empty() ? "nothing" : std::string(word.substr(0, 40)), i + 1));
       }
     }
     ++vertices_;
@@ -57,8 +56,7 @@ class Check {
       if (index > highest_) highest_ = index, highest_line_ = number;
       ++corners;
     }
-    if (corners < 3)
-      throw InputError(fmt::format("{}:{}: a face of {} vertices, expected at least 3", path_, number, corners));
+    if (corners < 3) throw InputError(fmt::format("{}:{}: a face of {} vertices, expected at least 3", path_, number, corners));
     triangles_ += corners - 2;
   }
 

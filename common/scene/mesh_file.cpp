@@ -39,8 +39,7 @@ class Gathering {
     if (depth > deepest_node) throw InputError(fmt::format("{}: nodes nested deeper than {}", path_, deepest_node));
     const glm::dmat4 transform = parent * to_glm(node.mTransformation);
     for (const unsigned m : std::span(node.mMeshes, node.mNumMeshes)) {
-      if (m >= scene_.mNumMeshes)
-        throw InputError(fmt::format("{}: node uses mesh {} of {}", path_, m, scene_.mNumMeshes));
+      if (m >= scene_.mNumMeshes) throw InputError(fmt::format("{}: node uses mesh {} of {}", path_, m, scene_.mNumMeshes));
       const aiMesh& mesh = *scene_.mMeshes[m];
       if (material_ < 0 || mesh.mMaterialIndex == static_cast<unsigned>(material_)) add(mesh, transform);
     }
@@ -62,8 +61,8 @@ class Gathering {
       if (f.mNumIndices != 3) continue;  // points and lines have no surface
       for (int k = 0; k < 3; ++k) {
         if (f.mIndices[k] < mesh.mNumVertices) continue;
-        throw InputError(fmt::format("{}: triangle {} uses vertex {}, expected an index below {}", path_,
-                                     raw_.triangles.size(), f.mIndices[k], mesh.mNumVertices));
+        throw InputError(fmt::format("{}: triangle {} uses vertex {}, expected an index below {}", path_, raw_.triangles.size(),
+                                     f.mIndices[k], mesh.mNumVertices));
       }
       raw_.triangles.emplace_back(first + f.mIndices[0], first + f.mIndices[1], first + f.mIndices[2]);
     }
@@ -103,8 +102,7 @@ class Gathering {
 glm::dmat4 to_glm(const aiMatrix4x4& m) {
   glm::dmat4 out;
   for (unsigned row = 0; row < 4; ++row) {
-    for (unsigned column = 0; column < 4; ++column)
-      out[static_cast<int>(column)][static_cast<int>(row)] = m[row][column];
+    for (unsigned column = 0; column < 4; ++column) out[static_cast<int>(column)][static_cast<int>(row)] = m[row][column];
   }
   return out;
 }

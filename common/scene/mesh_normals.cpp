@@ -81,8 +81,7 @@ class Smoothing {
  private:
   // Groups the corners at a vertex that smooth edges connect; each group becomes a vertex of its own.
   void split(std::uint32_t v) {
-    const std::span<const std::uint32_t> here(corners_.at.data() + corners_.first[v],
-                                              corners_.first[v + 1] - corners_.first[v]);
+    const std::span<const std::uint32_t> here(corners_.at.data() + corners_.first[v], corners_.first[v + 1] - corners_.first[v]);
     group_.resize(here.size());
     std::iota(group_.begin(), group_.end(), 0U);
     edges_.clear();
@@ -96,8 +95,7 @@ class Smoothing {
     for (std::size_t e = 1; e < edges_.size(); ++e) {
       const auto [end, i] = edges_[e];
       const auto [end_before, j] = edges_[e - 1];
-      if (end == end_before &&
-          glm::dot(glm::dvec3(faces_[here[i] / 3]), glm::dvec3(faces_[here[j] / 3])) > crease_cosine)
+      if (end == end_before && glm::dot(glm::dvec3(faces_[here[i] / 3]), glm::dvec3(faces_[here[j] / 3])) > crease_cosine)
         unite(i, j);
     }
 
@@ -108,8 +106,7 @@ class Smoothing {
       const glm::uvec3 t = mesh_.triangles[here[i] / 3];
       const int k = static_cast<int>(here[i] % 3);
       const glm::dvec3 p(mesh_.positions[v]);
-      const glm::dvec3 a = glm::dvec3(mesh_.positions[t[(k + 1) % 3]]) - p,
-                       b = glm::dvec3(mesh_.positions[t[(k + 2) % 3]]) - p;
+      const glm::dvec3 a = glm::dvec3(mesh_.positions[t[(k + 1) % 3]]) - p, b = glm::dvec3(mesh_.positions[t[(k + 2) % 3]]) - p;
       sums_[root(i)] += glm::cross(a, b) / (glm::dot(a, a) * glm::dot(b, b));
     }
     names_.assign(here.size(), 0);

@@ -29,8 +29,7 @@ Camera parse_camera(const Node& node) {
 
   const glm::dvec3 view = c.look_at - c.position;
   const Node& target = look_at ? *look_at : position ? *position : node;
-  if (!(glm::length(view) > 1e-9 * (1 + glm::length(c.position))))
-    target.fail("the same place as position, expected another");
+  if (!(glm::length(view) > 1e-9 * (1 + glm::length(c.position)))) target.fail("the same place as position, expected another");
   if (glm::length(c.up) < 1e-9) (up ? *up : node).fail("a zero vector, expected a direction");
   const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(c.up)));
   if (!(sine > 1e-6))

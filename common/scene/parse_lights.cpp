@@ -51,8 +51,8 @@ LightSource parse_directional(const Node& node) {
 
 LightSource parse_light(const Node& node) {
   // The type says which keys there are, so it is looked at first.
-  static constexpr auto any = keys("type", "name", "position", "intensity", "radius", "direction", "irradiance", "file",
-                                   "scale", "rotation", "radiance", "inner_angle", "outer_angle");
+  static constexpr auto any = keys("type", "name", "position", "intensity", "radius", "direction", "irradiance", "file", "scale",
+                                   "rotation", "radiance", "inner_angle", "outer_angle");
   static constexpr auto types = keys("point", "directional", "environment", "spot");
   const Node type_node = Object(node, any).require("type");
   const std::string type = type_node.choice(types);

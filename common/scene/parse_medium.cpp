@@ -8,8 +8,7 @@ namespace airlight {
 namespace {
 
 // In the order of PhaseKind.
-constexpr auto phase_names =
-    keys("isotropic", "rayleigh", "henyey_greenstein", "cornette_shanks", "mie_hazy", "mie_murky");
+constexpr auto phase_names = keys("isotropic", "rayleigh", "henyey_greenstein", "cornette_shanks", "mie_hazy", "mie_murky");
 
 Phase parse_phase(const Node& node) {
   static constexpr auto known = keys("type", "g");
@@ -20,8 +19,7 @@ Phase parse_phase(const Node& node) {
     phase.kind = static_cast<PhaseKind>(static_cast<int>(phase.kind) + 1);
   const bool takes_g = phase.kind == PhaseKind::henyey_greenstein || phase.kind == PhaseKind::cornette_shanks;
   if (takes_g) phase.g = o.require("g").number(limits::asymmetry);
-  if (const auto g = o.find("g"); g && !takes_g)
-    g->fail(fmt::format("the phase function {} has no g, expected none", type));
+  if (const auto g = o.find("g"); g && !takes_g) g->fail(fmt::format("the phase function {} has no g, expected none", type));
   return phase;
 }
 
@@ -54,9 +52,8 @@ Gaussian parse_gaussian(const Node& node, const Medium& medium) {
 
 Medium parse_medium(const Node& node) {
   static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians");
-  static constexpr std::array<LaterKey, 3> later{{{"grid", "voxel grids are"},
-                                                  {"gaussians_file", "files of Gaussians are"},
-                                                  {"particles_file", "files of particles are"}}};
+  static constexpr std::array<LaterKey, 3> later{
+      {{"grid", "voxel grids are"}, {"gaussians_file", "files of Gaussians are"}, {"particles_file", "files of particles are"}}};
   const Object o(node, known, later);
   Medium m;
   if (const auto phase = o.find("phase")) m.phase = parse_phase(*phase);

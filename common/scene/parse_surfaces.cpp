@@ -65,8 +65,8 @@ void check_extent(const Node& node, const Surface& surface) {
     const glm::dvec3 w(surface.transform * glm::dvec4(glm::dvec3(p), 1.0));
     const double largest = std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
     if (!(largest <= limits::farthest)) {
-      node.fail(fmt::format("the transform moves a vertex to ({}, {}, {}), expected coordinates up to {} m", w.x, w.y,
-                            w.z, limits::farthest));
+      node.fail(fmt::format("the transform moves a vertex to ({}, {}, {}), expected coordinates up to {} m", w.x, w.y, w.z,
+                            limits::farthest));
     }
   }
 }
@@ -78,8 +78,7 @@ glm::dmat4 parse_transform(const Object& o) {
   glm::dmat4 m(1.0);
   if (transform) {
     for (const std::string_view other : {"translate", "rotate", "scale"}) {
-      if (const auto node = o.find(other))
-        node->fail("transform is given too, expected it or translate, rotate, scale");
+      if (const auto node = o.find(other)) node->fail("transform is given too, expected it or translate, rotate, scale");
     }
     m = transform->mat4(limits::component);
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) {
@@ -109,8 +108,7 @@ Material parse_material(const Node& node) {
   }
   m.diffuse = d;
   m.specular = s;
-  if (const auto shininess = o.find("shininess"))
-    m.shininess = static_cast<float>(shininess->number(limits::shininess));
+  if (const auto shininess = o.find("shininess")) m.shininess = static_cast<float>(shininess->number(limits::shininess));
   return m;
 }
 

@@ -63,8 +63,8 @@ HostImage decoded_pfm(const std::string& path, std::string_view bytes) {
   const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels) * sizeof(float);
   const std::size_t end = at + row * static_cast<std::size_t>(height);
   if (bytes.size() < end)
-    throw InputError(fmt::format("{}: ends at byte {}, expected {} x {} pixels to end at byte {}", path, bytes.size(),
-                                 width, height, end));
+    throw InputError(
+        fmt::format("{}: ends at byte {}, expected {} x {} pixels to end at byte {}", path, bytes.size(), width, height, end));
   HostImage image({width, height}, channels);
   for (int y = height; y-- > 0; at += row) std::memcpy(image.values.data() + image.index(0, y), bytes.data() + at, row);
   if (scale > 0) {  // the sign of the scale says the byte order

@@ -49,8 +49,7 @@ std::string suggested(std::string_view word, std::span<const std::string_view> k
   const auto nearest = [&](std::string_view key) { return edit_distance(word, key); };
   for (const auto& [other, key] : synonyms) {
     const bool here = std::find(known.begin(), known.end(), key) != known.end();
-    if (here && nearest(other) <= 1 &&
-        std::none_of(known.begin(), known.end(), [&](auto k) { return nearest(k) <= 1; })) {
+    if (here && nearest(other) <= 1 && std::none_of(known.begin(), known.end(), [&](auto k) { return nearest(k) <= 1; })) {
       return ", did you mean \"" + std::string(key) + "\"?";
     }
   }
@@ -60,8 +59,7 @@ std::string suggested(std::string_view word, std::span<const std::string_view> k
 }  // namespace
 
 void Node::fail(std::string_view what) const {
-  throw InputError(
-      json::message(*file_, value_->place, path_.empty() ? std::string(what) : fmt::format("{}: {}", path_, what)));
+  throw InputError(json::message(*file_, value_->place, path_.empty() ? std::string(what) : fmt::format("{}: {}", path_, what)));
 }
 
 void Node::expect(json::Kind kind, std::string_view expected) const {
@@ -118,8 +116,7 @@ std::vector<Node> Node::array() const {
 
 glm::dvec3 Node::vec3(const Range& each) const {
   expect(json::Kind::array, "an array of 3 numbers");
-  if (value_->items.size() != 3)
-    fail(fmt::format("an array of {}, expected an array of 3 numbers", value_->items.size()));
+  if (value_->items.size() != 3) fail(fmt::format("an array of {}, expected an array of 3 numbers", value_->items.size()));
   const std::vector<Node> nodes = array();
   return {nodes[0].number(each), nodes[1].number(each), nodes[2].number(each)};
 }
@@ -135,10 +132,8 @@ glm::dmat4 Node::mat4(const Range& each) const {
   return m;
 }
 
-Object::Object(const Node& node, std::span<const std::string_view> keys, std::span<const LaterKey> later)
-    : node_(node) {
-  if (node.value().kind != json::Kind::object)
-    node.fail(fmt::format("{}, expected an object", article(node.value().kind)));
+Object::Object(const Node& node, std::span<const std::string_view> keys, std::span<const LaterKey> later) : node_(node) {
+  if (node.value().kind != json::Kind::object) node.fail(fmt::format("{}, expected an object", article(node.value().kind)));
   for (const json::Value& member : node.value().items) {
     if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
     const std::string prefix = node.path().empty() ? "" : node.path() + ".";
@@ -147,18 +142,17 @@ Object::Object(const Node& node, std::span<const std::string_view> keys, std::sp
       throw InputError(json::message(node.file(), member.key_place,
                                      fmt::format("{}{}: {} not supported by this version", prefix, l.key, l.what)));
     }
-    throw InputError(json::message(
-        node.file(), member.key_place,
-        fmt::format("unknown key {}{}{}", json::quoted(member.key), node.path().empty() ? "" : " in " + node.path(),
-                    suggested(std::string_view(member.key).substr(0, 60), keys))));
+    throw InputError(
+        json::message(node.file(), member.key_place,
+                      fmt::format("unknown key {}{}{}", json::quoted(member.key), node.path().empty() ? "" : " in " + node.path(),
+                                  suggested(std::string_view(member.key).substr(0, 60), keys))));
   }
 }
 
 std::optional<Node> Object::find(std::string_view key) const {
   for (const json::Value& member : node_.value().items) {
     if (member.key == key) {
-      return Node(member, node_.file(),
-                  node_.path().empty() ? std::string(key) : fmt::format("{}.{}", node_.path(), key));
+      return Node(member, node_.file(), node_.path().empty() ? std::string(key) : fmt::format("{}.{}", node_.path(), key));
     }
   }
   return std::nullopt;

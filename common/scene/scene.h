@@ -81,7 +81,8 @@ struct Scene {
   std::string technique;                                      // empty: not said
   std::vector<std::pair<std::string, std::string>> settings;  // knob, value
 
-  // SHA-256 (hex) of the canonical content and of the bytes of every named file; no paths, no formatting. Empty for a scene built in code.
+  // SHA-256 (hex) of the canonical content and of the bytes of every named file; no paths, no formatting. Empty for a scene built
+  // in code.
   std::string hash;
 };
 

@@ -13,9 +13,7 @@ namespace {
 class Canonical {
  public:
   void add(std::string_view name, double v) { line(name, fmt::format("{}", v + 0.0)); }  // -0 is 0
-  void add(std::string_view name, const glm::dvec3& v) {
-    line(name, fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0));
-  }
+  void add(std::string_view name, const glm::dvec3& v) { line(name, fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0)); }
   void line(std::string_view name, std::string_view text) {
     // With lengths, so that no text can look like another line.
     hash_.add(fmt::format("{} {}:{}\n", name, text.size(), text));

@@ -18,8 +18,7 @@ std::optional<std::string> refuses(const Scene& scene) {
 // Names images as they are wanted: a wanted one is kept, any other is transient.
 class Images {
  public:
-  Images(const FrameRequest& request, Plan& plan, std::uint32_t first_id)
-      : request_(request), plan_(plan), next_id_(first_id) {}
+  Images(const FrameRequest& request, Plan& plan, std::uint32_t first_id) : request_(request), plan_(plan), next_id_(first_id) {}
 
   Image make(std::string_view name, Format format) {
     Image image{{next_id_++}, format, request_.extent, 1, wanted(name)};
@@ -40,8 +39,8 @@ class Images {
   std::uint32_t next_id_;
 };
 
-Image per_light_images(const Scene& scene, const FrameRequest& request, const std::vector<std::size_t>& lights,
-                       std::uint32_t id, Plan& plan) {
+Image per_light_images(const Scene& scene, const FrameRequest& request, const std::vector<std::size_t>& lights, std::uint32_t id,
+                       Plan& plan) {
   Image image{{id}, Format::rgb32f, request.extent, std::max(1, static_cast<int>(lights.size())), true};
   bool any = false;
   for (std::size_t layer = 0; layer < lights.size(); ++layer) {
@@ -159,14 +158,16 @@ Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
   t.summary = "analytic single scattering in homogeneous fog (Biri et al. 2006)";
-  t.knobs = {{.name = "table_nodes",
-              .kind = Knob::Kind::integer,
-              .standard = "64",
-              .least = 16,
-              .most = 128,
-              .choices = {},
-              .meaning = "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
-              .sweep = {"16", "24", "32", "48", "64", "96", "128"}}};
+  t.knobs = {
+      {.name = "table_nodes",
+       .kind = Knob::Kind::integer,
+       .standard = "64",
+       .least = 16,
+       .most = 128,
+       .choices = {},
+       .meaning =
+           "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
+       .sweep = {"16", "24", "32", "48", "64", "96", "128"}}};
   t.refuses = refuses;
   t.plan = plan;
   return t;

@@ -23,8 +23,8 @@ std::string number_text(double v) {
 // One line that says what the knob takes.
 std::string range_text(const Knob& knob) {
   if (knob.kind == Knob::Kind::choice) return joined(knob.choices, " | ");
-  return std::string(knob.kind == Knob::Kind::integer ? "an integer" : "a number") + " in " + number_text(knob.least) +
-         ".." + number_text(knob.most);
+  return std::string(knob.kind == Knob::Kind::integer ? "an integer" : "a number") + " in " + number_text(knob.least) + ".." +
+         number_text(knob.most);
 }
 
 bool fits(const Knob& knob, const std::string& value) {

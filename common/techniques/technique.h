@@ -22,11 +22,11 @@ struct Knob {
   enum class Kind { integer, number, choice };
   std::string_view name;
   Kind kind = Kind::number;
-  std::string_view standard;               // default value, as one would write it
-  double least = 0, most = 0;              // integer and number
-  std::vector<std::string_view> choices;   // choice
+  std::string_view standard;              // default value, as one would write it
+  double least = 0, most = 0;             // integer and number
+  std::vector<std::string_view> choices;  // choice
   std::string_view meaning;
-  std::vector<std::string_view> sweep;     // values for time against error, coarse to fine
+  std::vector<std::string_view> sweep;  // values for time against error, coarse to fine
 };
 
 // The values of a technique's knobs. Throws InputError for an unknown knob (with a suggestion), a value out of its range.
@@ -47,8 +47,8 @@ class KnobValues {
 // One pass over the image: extent, sub-pixel shift, and the images wanted.
 struct FrameRequest {
   Extent extent;
-  glm::dvec2 offset{0, 0};           // [pixel] of the sample from the pixel centre
-  std::set<std::string> images;      // names as in aov_names(), "beauty" among them where wanted
+  glm::dvec2 offset{0, 0};       // [pixel] of the sample from the pixel centre
+  std::set<std::string> images;  // names as in aov_names(), "beauty" among them where wanted
   KnobValues knobs;
 };
 

@@ -89,7 +89,8 @@ TEST_F(Program, BeautyIsTheSumOfItsStoredParts) {
 }
 
 TEST_F(Program, EveryImageItNamesCanBeWritten) {
-  const std::string names = "surface,surface.direct,surface.ambient,transmittance,airlight,airlight.lamp,airlight.1,depth,normal,optical_depth";
+  const std::string names =
+      "surface,surface.direct,surface.ambient,transmittance,airlight,airlight.lamp,airlight.1,depth,normal,optical_depth";
   ASSERT_EQ(work.run("render scene.json -o fog.exr --aov " + names).code, 0);
   EXPECT_EQ(read_images(work.path("fog.exr").string()).size(), 11U);
   ASSERT_EQ(work.run("render scene.json -o fog.pfm --aov depth").code, 0);
@@ -124,7 +125,8 @@ TEST_F(Program, CompareSaysWhetherImagesDiffer) {
 TEST_F(Program, ExplainsAndCounts) {
   const Told told = work.run("explain scene.json");
   EXPECT_EQ(told.code, 0);
-  for (const std::string word : {"shadow-planes", "table_nodes = 64", "surface_visibility", "homogeneous_airlight", "casters are ignored"}) {
+  for (const std::string word :
+       {"shadow-planes", "table_nodes = 64", "surface_visibility", "homogeneous_airlight", "casters are ignored"}) {
     EXPECT_NE(told.out.find(word), std::string::npos) << word << "\n" << told.out;
   }
   const Told counted = work.run("render scene.json -o a.exr --stats --stats-json stats.json");
@@ -136,8 +138,10 @@ TEST_F(Program, HelpListsWhatWorks) {
   EXPECT_EQ(work.run("--help").code, 0);
   const Told told = work.run("render --help");
   EXPECT_EQ(told.code, 0);
-  for (const std::string word : {"table_nodes", "--technique", "reference", "Examples"}) EXPECT_NE(told.out.find(word), std::string::npos) << word;
-  for (const std::string later : {"gaussian-airlight", "--frames", "marching"}) EXPECT_EQ(told.out.find(later), std::string::npos) << later;
+  for (const std::string word : {"table_nodes", "--technique", "reference", "Examples"})
+    EXPECT_NE(told.out.find(word), std::string::npos) << word;
+  for (const std::string later : {"gaussian-airlight", "--frames", "marching"})
+    EXPECT_EQ(told.out.find(later), std::string::npos) << later;
   EXPECT_EQ(work.run("--version").out.substr(0, 9), "airlight ");
 }
 
@@ -197,7 +201,8 @@ TEST_F(Program, StopsWithinAMoment) {
     const pid_t child = fork();
     if (child == 0) {
       if (chdir(work.path().c_str()) != 0) _exit(1);
-      execl(AIRLIGHT_PROGRAM, "airlight", "render", "large.json", "-o", "large.exr", "--technique", "reference", "--resolution", "3000x2000", nullptr);
+      execl(AIRLIGHT_PROGRAM, "airlight", "render", "large.json", "-o", "large.exr", "--technique", "reference", "--resolution",
+            "3000x2000", nullptr);
       _exit(1);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(700));

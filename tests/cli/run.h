@@ -38,14 +38,16 @@ class Work {
 
   std::filesystem::path path(const std::string& name = "") const { return path_ / name; }
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(path(name), std::ios::binary) << text; }
 
   // `arguments` as in a shell whose working folder is this; `before` stands before the program.
   Told run(const std::string& arguments, const std::string& before = "") const {
     const std::string out = quoted(path(".out").string()), err = quoted(path(".err").string());
-    const std::string line = "cd " + quoted(path_.string()) + " && " + before + " " AIRLIGHT_PROGRAM " " + arguments + " >" + out + " 2>" + err;
+    const std::string line =
+        "cd " + quoted(path_.string()) + " && " + before + " " AIRLIGHT_PROGRAM " " + arguments + " >" + out + " 2>" + err;
     const int status = std::system(line.c_str());
     Told told{content(path(".out")), content(path(".err")), WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status)};
     std::filesystem::remove(path(".out"));

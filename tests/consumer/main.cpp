@@ -19,12 +19,13 @@ int main() {
   settings.images = {"beauty", "surface", "depth"};  // what is asked for is kept, and reused below
   const airlight::Frame frame = renderer.render(scene, settings);
   const airlight::HostImage& beauty = frame.image("beauty");
-  std::printf("%s: %d x %d pixels, the middle one has %g W/m^2/sr of red\n", frame.device.c_str(), beauty.extent.width, beauty.extent.height,
-              static_cast<double>(beauty.at(80, 60, 0)));
+  std::printf("%s: %d x %d pixels, the middle one has %g W/m^2/sr of red\n", frame.device.c_str(), beauty.extent.width,
+              beauty.extent.height, static_cast<double>(beauty.at(80, 60, 0)));
   airlight::write_image("lamp.exr", beauty, {});
 
   scene.medium.albedo = {0.5, 0.5, 0.5};  // surfaces do not depend on it: only the airlight is computed again
   const airlight::Frame second = renderer.render(scene, settings);
-  for (const airlight::StepStats& step : second.stats.steps) std::printf("%s%s\n", step.name.c_str(), step.reused ? " reused" : "");
+  for (const airlight::StepStats& step : second.stats.steps)
+    std::printf("%s%s\n", step.name.c_str(), step.reused ? " reused" : "");
   return beauty.at(80, 60, 0) > 0 ? 0 : 1;
 }

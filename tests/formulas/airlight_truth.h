@@ -1,5 +1,5 @@
-// An oracle for single scattering along a ray, independent of tables and of the boundary functions: the defining integral over the angle
-// at the light, by adaptive Gauss-Legendre in double.
+// An oracle for single scattering along a ray, independent of tables and of the boundary functions: the defining integral over
+// the angle at the light, by adaptive Gauss-Legendre in double.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,14 @@ inline double airlight_truth(Phase phase, double sigma_t, double foot, double h,
     return f64::phase_value(static_cast<int>(phase.kind), phase.g, -std::sin(a)) * std::exp(-sigma_t * (x + r));
   };
   // 15 nodes on a panel against two halves of it, until they agree.
-  static constexpr std::array node{0.0, 0.20119409399743452, 0.39415134707756337, 0.57097217260853885,
-                                   0.72441773136017005, 0.84820658341042722, 0.93727339240070590, 0.98799251802048543};
+  static constexpr std::array node{0.0,
+                                   0.20119409399743452,
+                                   0.39415134707756337,
+                                   0.57097217260853885,
+                                   0.72441773136017005,
+                                   0.84820658341042722,
+                                   0.93727339240070590,
+                                   0.98799251802048543};
   static constexpr std::array weight{0.20257824192556127, 0.19843148532711158, 0.18616100001556221, 0.16626920581699393,
                                      0.13957067792615431, 0.10715922046717194, 0.07036604748810812, 0.03075324199611727};
   const auto panel = [&](double a, double b) {

@@ -11,8 +11,8 @@ namespace airlight::HWY_NAMESPACE {
 
 #define FORMULA HWY_INLINE
 #define OUT(type) type&
-#define INPUTS const real *a
-#define RESULTS real *r
+#define INPUTS const real* a
+#define RESULTS real* r
 #include "tests/formulas/calls.h"
 #undef FORMULA
 #undef OUT
@@ -40,8 +40,8 @@ HWY_AFTER_NAMESPACE();
 
 #define FORMULA inline
 #define OUT(type) type&
-#define INPUTS const real *a
-#define RESULTS real *r
+#define INPUTS const real* a
+#define RESULTS real* r
 namespace airlight::f64 {
 #include "tests/formulas/calls.h"
 }
@@ -59,7 +59,8 @@ Columns run_double(const Calls& calls) {
   for (std::size_t i = 0; i < n; ++i) {
     double a[most_inputs] = {}, r[most_results] = {};
     for (std::size_t k = 0; k < calls.inputs.size(); ++k) a[k] = calls.inputs[k][i];
-    f64::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g, a, r);
+    f64::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g, a,
+                      r);
     for (std::size_t k = 0; k < most_results; ++k) results[k][i] = r[k];
   }
   return results;
@@ -71,7 +72,8 @@ Columns run_float(const Calls& calls) {
   for (std::size_t i = 0; i < n; ++i) {
     f32::Float a[most_inputs], r[most_results];
     for (std::size_t k = 0; k < calls.inputs.size(); ++k) a[k] = calls.inputs[k][i];
-    f32::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g, a, r);
+    f32::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g, a,
+                      r);
     for (std::size_t k = 0; k < most_results; ++k) results[k][i] = static_cast<double>(r[k].v);
   }
   return results;
@@ -84,10 +86,12 @@ Columns run_simd(const Calls& calls, Simd simd) {
     inputs.emplace_back(column.begin(), column.end());
     inputs.back().resize(padded, inputs.back().back());  // what is added is a copy of the last call
   }
-  entry(HWY_DISPATCH_TABLE(call_over), simd)(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind),
-                                             static_cast<float>(calls.phase.g), inputs, results);
+  entry(HWY_DISPATCH_TABLE(call_over), simd)(static_cast<int>(calls.formula), calls.table.data(),
+                                             static_cast<int>(calls.phase.kind), static_cast<float>(calls.phase.g), inputs,
+                                             results);
   Columns columns;
-  for (const std::vector<float>& column : results) columns.emplace_back(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(n));
+  for (const std::vector<float>& column : results)
+    columns.emplace_back(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(n));
   return columns;
 }
 

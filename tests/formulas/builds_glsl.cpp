@@ -94,7 +94,8 @@ struct Caller {
     for (const std::vector<double>& column : calls.inputs) values.insert(values.end(), column.begin(), column.end());
     const StorageBuffer inputs(gl, 0, values.size(), values.data());
     const StorageBuffer results(gl, 1, most_results * n, nullptr);
-    const std::vector<float> table = calls.table.empty() ? std::vector<float>(1) : std::vector(calls.table.begin(), calls.table.end());
+    const std::vector<float> table =
+        calls.table.empty() ? std::vector<float>(1) : std::vector(calls.table.begin(), calls.table.end());
     const StorageBuffer tables(gl, 7, table.size(), table.data());
     program->set("count", static_cast<int>(n));
     program->set("kind", static_cast<int>(calls.phase.kind));

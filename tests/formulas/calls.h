@@ -1,5 +1,5 @@
-// Every formula under one signature, in the dialect of common/formulas, so that one caller a build reaches them all. INPUTS is an array of
-// 14 reals `a`, RESULTS one of 3 reals `r`. The numbers are those of Formula in tests/formulas/checks/check.h.
+// Every formula under one signature, in the dialect of common/formulas, so that one caller a build reaches them all. INPUTS is an
+// array of 14 reals `a`, RESULTS one of 3 reals `r`. The numbers are those of Formula in tests/formulas/checks/check.h.
 
 // A voxel of a grid in a table: three sizes, then the values, x fastest; 0 outside.
 FORMULA real voxel_or_zero(table t, real i, real j, real k) {
@@ -25,8 +25,12 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
   real cx = grid_coordinate(x, size_x, element(t, 0));
   real cy = grid_coordinate(y, size_y, element(t, 1));
   real cz = grid_coordinate(z, size_z, element(t, 2));
-  real i; real j; real k;
-  real u; real v; real w;
+  real i;
+  real j;
+  real k;
+  real u;
+  real v;
+  real w;
   if (clamped == 1) {
     grid_lookup_clamped(cx, element(t, 0), i, u);
     grid_lookup_clamped(cy, element(t, 1), j, v);

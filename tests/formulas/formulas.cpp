@@ -21,8 +21,8 @@ class Formulas : public testing::TestWithParam<Check> {};
 
 void hold(const Check& check, const char* build, std::string_view bound, const Run& run) {
   const Measured m = check.measure(run);
-  std::printf("%s, %s: largest error %.3g (allowed %.3g) of %zu, %s\n", check.name.c_str(), build, m.error, tolerance(bound), m.count,
-              m.where.c_str());
+  std::printf("%s, %s: largest error %.3g (allowed %.3g) of %zu, %s\n", check.name.c_str(), build, m.error, tolerance(bound),
+              m.count, m.where.c_str());
   EXPECT_GT(m.count, 0U) << build;
   EXPECT_FALSE(!(m.error <= tolerance(bound))) << build << ": " << m.error << " at " << m.where;
 }

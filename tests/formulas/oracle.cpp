@@ -1,4 +1,5 @@
-// The oracle of the airlight checks against the high-precision table, and what of exp_ concerns the single-precision builds alone.
+// The oracle of the airlight checks against the high-precision table, and what of exp_ concerns the single-precision builds
+// alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -14,13 +14,13 @@ bool miss(float v) { return v >= 1e29F; }
 
 std::string Difference::text() const {
   char line[200];
-  std::snprintf(line, sizeof line, "largest %.4g, beyond 1e-4 of it %.4f %% of the pixels (%.4f %% off edges), elsewhere at most %.3g",
-                largest, 100 * share, 100 * share_inside, worst_elsewhere);
+  std::snprintf(line, sizeof line,
+                "largest %.4g, beyond 1e-4 of it %.4f %% of the pixels (%.4f %% off edges), elsewhere at most %.3g", largest,
+                100 * share, 100 * share_inside, worst_elsewhere);
   return finite ? line : "not finite";
 }
 
-Difference difference(const Image& image, std::span<const float> a, std::span<const float> b,
-                      const std::vector<bool>& edges) {
+Difference difference(const Image& image, std::span<const float> a, std::span<const float> b, const std::vector<bool>& edges) {
   Difference d;
   d.finite = a.size() == b.size() && std::all_of(a.begin(), a.end(), [](float v) { return std::isfinite(v); }) &&
              std::all_of(b.begin(), b.end(), [](float v) { return std::isfinite(v); });
@@ -56,7 +56,8 @@ std::vector<bool> edges_of(Extent extent, std::span<const float> distance) {
   const auto at = [&](int x, int y) {
     x = std::clamp(x, 0, extent.width - 1);
     y = std::clamp(y, 0, extent.height - 1);
-    return static_cast<double>(distance[static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width) + static_cast<std::size_t>(x)]);
+    return static_cast<double>(
+        distance[static_cast<std::size_t>(y) * static_cast<std::size_t>(extent.width) + static_cast<std::size_t>(x)]);
   };
   std::vector<bool> edges;
   for (int y = 0; y < extent.height; ++y) {

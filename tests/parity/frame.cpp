@@ -34,9 +34,8 @@ Case empty_fog(Extent e) {
 }  // namespace
 
 std::span<const NamedCase> frame_cases() {
-  static constexpr NamedCase cases[] = {{"frame/torus_in_fog", torus_in_fog},
-                                        {"frame/torus_in_clear_air", torus_in_clear_air},
-                                        {"frame/empty_fog", empty_fog}};
+  static constexpr NamedCase cases[] = {
+      {"frame/torus_in_fog", torus_in_fog}, {"frame/torus_in_clear_air", torus_in_clear_air}, {"frame/empty_fog", empty_fog}};
   return cases;
 }
 

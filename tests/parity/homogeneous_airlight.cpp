@@ -36,9 +36,7 @@ Case airlight(Extent extent, const std::vector<Light>& lights, Phase phase, floa
 
 Light lamp(float x, float y, float z) { return {.vector = {x, y, z}, .power = {10, 10, 10}}; }
 
-Case two_lamps(Extent e) {
-  return airlight(e, {test_lights()[0], test_lights()[1]}, {PhaseKind::isotropic, 0}, 0.1F, 1e30F);
-}
+Case two_lamps(Extent e) { return airlight(e, {test_lights()[0], test_lights()[1]}, {PhaseKind::isotropic, 0}, 0.1F, 1e30F); }
 Case directional(Extent e) { return airlight(e, {test_lights()[2]}, {PhaseKind::rayleigh, 0}, 0.1F, 50); }
 Case peaked(Extent e) { return airlight(e, test_lights(), {PhaseKind::henyey_greenstein, 0.9}, 0.2F, 1e30F); }
 Case backward(Extent e) { return airlight(e, test_lights(), {PhaseKind::cornette_shanks, -0.6}, 0.2F, 1e30F); }
@@ -55,14 +53,19 @@ Case dark(Extent e) { return airlight(e, {}, {PhaseKind::isotropic, 0}, 0.1F, 1e
 }  // namespace
 
 std::span<const NamedCase> homogeneous_airlight_cases() {
-  static constexpr NamedCase cases[] = {
-      {"homogeneous_airlight/two_lamps", two_lamps},     {"homogeneous_airlight/directional", directional},
-      {"homogeneous_airlight/hg0.9", peaked},            {"homogeneous_airlight/cs-0.6", backward},
-      {"homogeneous_airlight/mie_murky", murky},         {"homogeneous_airlight/mie_hazy", hazy},
-      {"homogeneous_airlight/light_behind", behind},     {"homogeneous_airlight/light_far_away", far_away},
-      {"homogeneous_airlight/light_in_camera", in_camera}, {"homogeneous_airlight/dense", dense},
-      {"homogeneous_airlight/thin", thin},               {"homogeneous_airlight/no_medium", vacuum},
-      {"homogeneous_airlight/no_light", dark}};
+  static constexpr NamedCase cases[] = {{"homogeneous_airlight/two_lamps", two_lamps},
+                                        {"homogeneous_airlight/directional", directional},
+                                        {"homogeneous_airlight/hg0.9", peaked},
+                                        {"homogeneous_airlight/cs-0.6", backward},
+                                        {"homogeneous_airlight/mie_murky", murky},
+                                        {"homogeneous_airlight/mie_hazy", hazy},
+                                        {"homogeneous_airlight/light_behind", behind},
+                                        {"homogeneous_airlight/light_far_away", far_away},
+                                        {"homogeneous_airlight/light_in_camera", in_camera},
+                                        {"homogeneous_airlight/dense", dense},
+                                        {"homogeneous_airlight/thin", thin},
+                                        {"homogeneous_airlight/no_medium", vacuum},
+                                        {"homogeneous_airlight/no_light", dark}};
   return cases;
 }
 

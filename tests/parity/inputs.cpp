@@ -37,8 +37,7 @@ TestSurfaces sphere_on_plane(const View& view, std::uint32_t first_id) {
     for (int i = 0; i < view.extent.width; ++i) {
       const double w = view.extent.width, h = view.extent.height, tan = view.tan_half_fov;
       const double x = (2 * (i + 0.5) / w - 1) * tan * w / h, y = (1 - 2 * (j + 0.5) / h) * tan;
-      const glm::dvec3 d =
-          glm::normalize(x * glm::dvec3(view.right) + y * glm::dvec3(view.up) + glm::dvec3(view.forward));
+      const glm::dvec3 d = glm::normalize(x * glm::dvec3(view.right) + y * glm::dvec3(view.up) + glm::dvec3(view.forward));
       double distance = 1e30, material = -1;
       glm::dvec3 normal(0);
       if (d.y < -1e-3) distance = floor / d.y, normal = {0, 1, 0}, material = 0;
@@ -69,8 +68,7 @@ std::vector<Light> test_lights() {
 }
 
 std::vector<Material> test_materials() {
-  return {{.diffuse = {0.5F, 0.45F, 0.4F}},
-          {.diffuse = {0.2F, 0.3F, 0.5F}, .specular = {0.4F, 0.4F, 0.4F}, .shininess = 40}};
+  return {{.diffuse = {0.5F, 0.45F, 0.4F}}, {.diffuse = {0.2F, 0.3F, 0.5F}, .specular = {0.4F, 0.4F, 0.4F}, .shininess = 40}};
 }
 
 std::shared_ptr<const Mesh> wavy_torus(std::size_t triangles) {
@@ -117,7 +115,9 @@ Scene test_scene(std::size_t triangles) {
   scene.medium.phase = {PhaseKind::henyey_greenstein, 0.5};
   scene.lights = {{.type = LightType::point, .name = "lamp", .position = {-1.5, 1.8, 0.5}, .power = {18, 12, 7}},
                   {.type = LightType::point, .name = "", .position = {2, 0.8, -1.5}, .power = {5, 8, 14}},
-                  {.type = LightType::directional, .name = "moon", .direction = glm::normalize(glm::dvec3(0.2, -1, -0.4)),
+                  {.type = LightType::directional,
+                   .name = "moon",
+                   .direction = glm::normalize(glm::dvec3(0.2, -1, -0.4)),
                    .power = {0.3, 0.3, 0.4}}};
   Surface ground{.mesh = square(8), .material = {.diffuse = {0.4F, 0.4F, 0.35F}}};
   ground.transform[3] = {0, -0.5, 0, 1};

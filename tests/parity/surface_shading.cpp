@@ -21,21 +21,22 @@ Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> mat
   };
   const Image surface{{6}, Format::rgb32f, extent, 1, true}, direct{{7}, Format::rgb32f, extent, 1, true},
       ambient{{8}, Format::rgb32f, extent, 1, true};
-  c.steps = {{SurfaceShading{.distance = surfaces.distance,
-                             .normal = surfaces.normal,
-                             .material = surfaces.material,
-                             .transmittance = random_image(4, 1),
-                             .light_transmittance = light_transmittance ? random_image(5, static_cast<int>(lights.size())) : Image{},
-                             .materials = materials,
-                             .lights = lights,
-                             .view = view,
-                             .extinction = 0.1F,
-                             .ambient = {0.02F, 0.03F, 0.04F},
-                             .background = {0.1F, 0.2F, 0.3F},
-                             .surface = surface,
-                             .surface_direct = direct,
-                             .surface_ambient = ambient},
-              ""}};
+  c.steps = {
+      {SurfaceShading{.distance = surfaces.distance,
+                      .normal = surfaces.normal,
+                      .material = surfaces.material,
+                      .transmittance = random_image(4, 1),
+                      .light_transmittance = light_transmittance ? random_image(5, static_cast<int>(lights.size())) : Image{},
+                      .materials = materials,
+                      .lights = lights,
+                      .view = view,
+                      .extinction = 0.1F,
+                      .ambient = {0.02F, 0.03F, 0.04F},
+                      .background = {0.1F, 0.2F, 0.3F},
+                      .surface = surface,
+                      .surface_direct = direct,
+                      .surface_ambient = ambient},
+       ""}};
   c.results = {{"surface", surface}, {"surface.direct", direct}, {"surface.ambient", ambient}};
   return c;
 }

@@ -1,4 +1,5 @@
-// The reference against images of exact single scattering made elsewhere (tests/data/peers: 160x120, one channel, little-endian PFM).
+// The reference against images of exact single scattering made elsewhere (tests/data/peers: 160x120, one channel, little-endian
+// PFM).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +34,8 @@ std::vector<double> read_pfm(const std::string& name) {
   in.read(reinterpret_cast<char*>(stored.data()), static_cast<std::streamsize>(stored.size() * sizeof(float)));
   EXPECT_TRUE(in.good());
   std::vector<double> values;
-  for (std::size_t y = 120; y-- > 0;) values.insert(values.end(), stored.begin() + static_cast<long>(160 * y), stored.begin() + static_cast<long>(160 * (y + 1)));
+  for (std::size_t y = 120; y-- > 0;)
+    values.insert(values.end(), stored.begin() + static_cast<long>(160 * y), stored.begin() + static_cast<long>(160 * (y + 1)));
   return values;
 }
 

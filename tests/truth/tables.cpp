@@ -100,13 +100,13 @@ TEST(Tables, AirlightHomogeneous) {
     }
     ++compared;
     const double error = relative_error(p.airlight.x, expected);
-    EXPECT_FALSE(!(error <= 1e-8)) << row[0] << " k " << k << " l " << l << " phi " << phi << " d " << d << ": "
-                                   << p.airlight.x << " instead of " << expected;
+    EXPECT_FALSE(!(error <= 1e-8)) << row[0] << " k " << k << " l " << l << " phi " << phi << " d " << d << ": " << p.airlight.x
+                                   << " instead of " << expected;
     worst = std::max(worst, error);
     most_claimed = std::max(most_claimed, p.error);
   }
-  std::printf("airlight_homogeneous.csv: %d rows above 1e-30, largest relative error %.2g, largest claimed %.2g\n", compared, worst,
-              most_claimed);
+  std::printf("airlight_homogeneous.csv: %d rows above 1e-30, largest relative error %.2g, largest claimed %.2g\n", compared,
+              worst, most_claimed);
   EXPECT_GT(compared, 200);
 }
 

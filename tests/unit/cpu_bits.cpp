@@ -75,7 +75,9 @@ TEST_P(ForcedTarget, IsTheOneThatRuns) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, ForcedTarget, testing::Values(Simd::scalar, Simd::avx2, Simd::avx512, Simd::neon),
-                         [](const auto& p) { return std::string(name_of(p.param)) == "AVX-512" ? "AVX512" : std::string(name_of(p.param)); });
+                         [](const auto& p) {
+                           return std::string(name_of(p.param)) == "AVX-512" ? "AVX512" : std::string(name_of(p.param));
+                         });
 
 // Every item waits until all threads have one, so that no thread can do the work of two.
 TEST(Threads, AsManyRunAsWereAskedFor) {

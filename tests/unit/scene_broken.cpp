@@ -1,4 +1,5 @@
-// Broken scenes and meshes: each is refused in one line that names the place and what was expected. The table is tests/data/broken/expected.tsv.
+// Broken scenes and meshes: each is refused in one line that names the place and what was expected. The table is
+// tests/data/broken/expected.tsv.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,9 +35,7 @@ std::vector<Broken> table() {
   return rows;
 }
 
-bool is_scene(const std::string& file) {
-  return file.ends_with(".json") || file.ends_with(".gltf") || file.ends_with(".glb");
-}
+bool is_scene(const std::string& file) { return file.ends_with(".json") || file.ends_with(".gltf") || file.ends_with(".glb"); }
 
 class BrokenInput : public testing::TestWithParam<Broken> {};
 
@@ -64,7 +63,8 @@ TEST_P(BrokenInput, IsRefusedInOneLineWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Files, BrokenInput, testing::ValuesIn(table()), [](const auto& row) {
   std::string name = row.param.file;
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '.'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.'; }, '_');
   return name;
 });
 

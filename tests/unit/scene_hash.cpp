@@ -109,7 +109,8 @@ TEST_F(SceneHash, EveryValueChangesIt) {
                                                             {"\"name\": \"lamp\", ", ""},
                                                             {", \"shininess\": 28", ""}}};
   std::set<std::string> hashes{hash(scene_text)};
-  for (const auto& [from, to] : changes) EXPECT_TRUE(hashes.insert(hash(replaced(scene_text, from, to))).second) << from << " -> " << to;
+  for (const auto& [from, to] : changes)
+    EXPECT_TRUE(hashes.insert(hash(replaced(scene_text, from, to))).second) << from << " -> " << to;
   std::cout << hashes.size() << " different hashes\n";
 }
 
@@ -127,11 +128,16 @@ TEST_F(SceneHash, FormattingOrderAndDefaultsKeepIt) {
   for (char& c : text) c = c == '\n' ? '\t' : c;
   EXPECT_EQ(hash("// a scene\r\n" + text), before);
   EXPECT_EQ(hash(replaced(scene_text, "\"vertical_fov\": 40, \"resolution\": [320, 200]",
-                          "\"resolution\": [320.0, 2e2], /* turned */ \"vertical_fov\": 4.00e1")), before);
+                          "\"resolution\": [320.0, 2e2], /* turned */ \"vertical_fov\": 4.00e1")),
+            before);
   EXPECT_EQ(hash(replaced(scene_text, "\"rays\": 33, \"kind\": \"fine\"", "\"kind\": \"fine\", \"rays\": 33.0")), before);
   EXPECT_EQ(hash(replaced(scene_text, "\"vertical_fov\"", "\"up\": [0, 1, 0], \"vertical_fov\"")), before);
-  EXPECT_EQ(hash(replaced(scene_text, "\"casts_shadow\"", "\"rotate\": [0, 360, 0], \"prt\": false, \"normals\": \"auto\", \"scale\": 1, \"casts_shadow\"")), before);
-  EXPECT_EQ(hash(replaced(scene_text, "\"translate\": [16, 17, 18]", "\"transform\": [1,0,0,0, 0,1,0,0, 0,0,1,-0.0, 16,17,18,1]")), before);
+  EXPECT_EQ(hash(replaced(scene_text, "\"casts_shadow\"",
+                          "\"rotate\": [0, 360, 0], \"prt\": false, \"normals\": \"auto\", \"scale\": 1, \"casts_shadow\"")),
+            before);
+  EXPECT_EQ(
+      hash(replaced(scene_text, "\"translate\": [16, 17, 18]", "\"transform\": [1,0,0,0, 0,1,0,0, 0,0,1,-0.0, 16,17,18,1]")),
+      before);
 }
 
 TEST_F(SceneHash, PlacesOfFilesKeepIt) {

@@ -90,7 +90,8 @@ TEST(SceneLoad, EveryKeyArrives) {
   EXPECT_EQ(s.surfaces[0].transform * glm::dvec4(1, 1, 1, 1), glm::dvec4(14, 23, 28, 1));
   EXPECT_EQ(s.background, glm::dvec3(0.5, 0.25, 0.125));
   EXPECT_EQ(s.technique, "gaussian-airlight");
-  const std::vector<std::pair<std::string, std::string>> settings{{"samples", "4"}, {"exact", "true"}, {"scale", "0.1"}, {"erf", "fast"}};
+  const std::vector<std::pair<std::string, std::string>> settings{
+      {"samples", "4"}, {"exact", "true"}, {"scale", "0.1"}, {"erf", "fast"}};
   EXPECT_EQ(s.settings, settings);
 }
 
@@ -112,7 +113,8 @@ TEST(SceneLoad, RotationsTurnAboutXThenYThenZ) {
 TEST(SceneLoad, PathsWithBlanksAndLettersBeyondAscii) {
   const Folder folder("mein Ordner mit Umläuten äöü 霧");
   folder.write("ein Häschen 霧.obj", square_obj);
-  const Scene s = load_scene(folder.write("Nebel ü.json", R"({ "airlight": 1, "surfaces": [ { "mesh": "ein Häschen 霧.obj" } ] })"));
+  const Scene s =
+      load_scene(folder.write("Nebel ü.json", R"({ "airlight": 1, "surfaces": [ { "mesh": "ein Häschen 霧.obj" } ] })"));
   EXPECT_EQ(s.surfaces.at(0).mesh->triangles.size(), 2U);
   const std::string missing = folder.file("nicht da.json");
   try {

@@ -24,8 +24,14 @@ double end_value(const std::vector<float>& tables, const AirlightRow& row) {
 }
 
 std::string place_of(const AirlightRow& row, double found) {
-  return place({{"kind", static_cast<double>(row.phase.kind)}, {"g", row.phase.g}, {"sigma_t", row.extinction}, {"foot", row.foot},
-                {"h", row.h}, {"length", row.length}, {"truth", row.value}, {"found", found}});
+  return place({{"kind", static_cast<double>(row.phase.kind)},
+                {"g", row.phase.g},
+                {"sigma_t", row.extinction},
+                {"foot", row.foot},
+                {"h", row.h},
+                {"length", row.length},
+                {"truth", row.value},
+                {"found", found}});
 }
 
 // As a multiple of what is allowed: 2e-5 of the value and 1e-7 of the end value.
@@ -41,9 +47,9 @@ Measured measure_table(const Run& run) {
     const Columns found = run({Formula::point_airlight, in, phase, tables});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const AirlightRow& row = rows[i];
-      const double allowed = std::fabs(row.value) < 1e-30
-                                 ? 1e-30
-                                 : tolerance("airlight_value") * std::fabs(row.value) + tolerance("airlight_end") * end_value(tables, row);
+      const double allowed = std::fabs(row.value) < 1e-30 ? 1e-30
+                                                          : tolerance("airlight_value") * std::fabs(row.value) +
+                                                                tolerance("airlight_end") * end_value(tables, row);
       m.add(std::fabs(found[0][i] - row.value) / allowed, [&] { return place_of(row, found[0][i]); });
     }
   }
@@ -92,20 +98,23 @@ Measured measure_extremes(const Run& run) {
     const std::vector<float> tables = airlight_tables(phase, default_nodes);
     const Columns found = run({Formula::point_airlight, in, phase, tables});
     for (std::size_t i = 0; i < in[0].size(); ++i) {
-      m.add(std::isfinite(found[0][i]) && found[0][i] >= 0 ? 0 : HUGE_VAL,
-            [&] { return place_of({phase, in[0][i], in[1][i], in[2][i], in[4][i], 0}, found[0][i]); });
+      m.add(std::isfinite(found[0][i]) && found[0][i] >= 0 ? 0 : HUGE_VAL, [&] {
+        return place_of({phase, in[0][i], in[1][i], in[2][i], in[4][i], 0}, found[0][i]);
+      });
     }
   }
   return m;
 }
 
-// Of a directional light: p (exp(-sigma x0) - exp(-sigma x1)), here of Rayleigh's 3/(16 pi) (1 + mu^2), beside 1 + the optical depth.
+// Of a directional light: p (exp(-sigma x0) - exp(-sigma x1)), here of Rayleigh's 3/(16 pi) (1 + mu^2), beside 1 + the optical
+// depth.
 Measured measure_directional(const Run& run) {
   Random random(150);
   Columns in;
   for (int i = 0; i < 20000; ++i) {
     const double sigma = random.magnitude(1e-6, 1e3), x0 = i % 2 == 0 ? 0 : random.magnitude(1e-3, 40) / sigma;
-    add_call(in, sigma, random.number(-1, 1), as_float(x0), i % 5 == 0 ? 1e30 : as_float(x0) + random.magnitude(1e-3, 1e3) / sigma);
+    add_call(in, sigma, random.number(-1, 1), as_float(x0),
+             i % 5 == 0 ? 1e30 : as_float(x0) + random.magnitude(1e-3, 1e3) / sigma);
   }
   const Columns found = run({Formula::directional_airlight, in, {PhaseKind::rayleigh, 0}});
   Measured m;
@@ -114,7 +123,9 @@ Measured measure_directional(const Run& run) {
     const double truth = 0.059683103659460751 * (1 + mu * mu) * std::exp(-sigma * x0) * -std::expm1(-sigma * (x1 - x0));
     // x1 - x0 is a float, too.
     const double known = 1 + sigma * x0 + x1 / (x1 - x0);
-    m.add(relative_error(found[0][i], truth) / known, [&] { return place({{"sigma_t", sigma}, {"mu", mu}, {"x0", x0}, {"x1", x1}}); });
+    m.add(relative_error(found[0][i], truth) / known, [&] {
+      return place({{"sigma_t", sigma}, {"mu", mu}, {"x0", x0}, {"x1", x1}});
+    });
   }
   return m;
 }
@@ -129,9 +140,14 @@ void add_airlight_checks(std::vector<Check>& checks) {
   };
   rays("isotropic", {PhaseKind::isotropic, 0});
   rays("rayleigh", {PhaseKind::rayleigh, 0});
-  for (const auto& [name, g] : std::initializer_list<std::pair<const char*, double>>{
-           {"hg060", 0.6}, {"hg090", 0.9}, {"hg097", 0.97}, {"hg099", 0.99},
-           {"hg060_back", -0.6}, {"hg090_back", -0.9}, {"hg097_back", -0.97}, {"hg099_back", -0.99}}) {
+  for (const auto& [name, g] : std::initializer_list<std::pair<const char*, double>>{{"hg060", 0.6},
+                                                                                     {"hg090", 0.9},
+                                                                                     {"hg097", 0.97},
+                                                                                     {"hg099", 0.99},
+                                                                                     {"hg060_back", -0.6},
+                                                                                     {"hg090_back", -0.9},
+                                                                                     {"hg097_back", -0.97},
+                                                                                     {"hg099_back", -0.99}}) {
     rays(name, {PhaseKind::henyey_greenstein, g});
   }
   rays("cs060", {PhaseKind::cornette_shanks, 0.6});

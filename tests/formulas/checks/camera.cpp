@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::uint32_t stream = 100;
 
-// Column i of `width` is the i-th of as many equal parts of [-tan W/H, tan W/H], from the left; its middle is moved by the offset.
+// Column i of `width` is the i-th of as many equal parts of [-tan W/H, tan W/H], from the left; its middle is moved by the
+// offset.
 Measured measure_plane_x(const Run& run) {
   Random random(stream);
   Columns in;
@@ -40,8 +41,9 @@ Measured measure_plane_y(const Run& run) {
   Measured m;
   for (std::size_t k = 0; k < in[0].size(); ++k) {
     const double edge = in[3][k], part = (in[0][k] + 0.5 + in[1][k]) / in[2][k];
-    m.add(std::fabs(found[0][k] - ((1 - part) * edge - part * edge)) / edge,
-          [&] { return place({{"row", in[0][k]}, {"height", in[2][k]}}); });
+    m.add(std::fabs(found[0][k] - ((1 - part) * edge - part * edge)) / edge, [&] {
+      return place({{"row", in[0][k]}, {"height", in[2][k]}});
+    });
   }
   m.add(std::fabs(found[0].back() - 0.5), [] { return "row 0 of 2"; });
   return m;
@@ -83,8 +85,9 @@ Measured measure_perpendicular(const Run& run) {
     const glm::dvec3 d = vector_at(in, 0, k), p = vector_at(in, 3, k);
     const double l = glm::length(p), foot = glm::dot(d, p) / glm::length(d);
     const double h = std::max(glm::length(glm::cross(d, p)) / glm::length(d), in[6][k]);
-    m.add(std::max(std::fabs(found[0][k] - foot), std::fabs(found[1][k] - h)) / l,
-          [&] { return place({{"foot", foot}, {"h", h}, {"distance", l}}); });
+    m.add(std::max(std::fabs(found[0][k] - foot), std::fabs(found[1][k] - h)) / l, [&] {
+      return place({{"foot", foot}, {"h", h}, {"distance", l}});
+    });
     m.add(found[1][k] >= in[6][k] ? 0 : HUGE_VAL, [&] { return place({{"least", in[6][k]}, {"found h", found[1][k]}}); });
   }
   return m;

@@ -1,5 +1,5 @@
-// What is asked of the formulas in every build: each check calls them over arrays by a Run and holds the results against an oracle of its
-// own, in double. No formula file is included by a check, so that the same checks can be turned on damaged ones.
+// What is asked of the formulas in every build: each check calls them over arrays by a Run and holds the results against an
+// oracle of its own, in double. No formula file is included by a check, so that the same checks can be turned on damaged ones.
 #pragma once
 
 #include <cmath>
@@ -26,24 +26,24 @@ enum class Formula : int {
   grid_coordinate = 5,       // x, size, n
   grid_lookup_zero = 6,      // coordinate, n -> lower, weight
   grid_lookup_clamped = 7,
-  grid_value_zero = 8,       // x, y, z, size in x, y, z; the table: three sizes, then the values, x fastest
+  grid_value_zero = 8,  // x, y, z, size in x, y, z; the table: three sizes, then the values, x fastest
   grid_value_clamped = 9,
-  ray_length = 10,           // distance, sky distance
-  optical_depth = 11,        // length, extinction
+  ray_length = 10,     // distance, sky distance
+  optical_depth = 11,  // length, extinction
   transmittance = 12,
   opacity = 13,
   mean_transmittance = 14,
-  attenuated_length = 15,    // length, extinction
-  point_irradiance = 16,     // l, radius, extinction
+  attenuated_length = 15,  // length, extinction
+  point_irradiance = 16,   // l, radius, extinction
   lambert = 17,
-  unit_distance = 18,        // a, b
-  phong = 19,                // cosine of normal and light, apart, shininess
-  ray_triangle = 20,         // d, a, b, c -> distance, weights of b and c
-  shading_normal = 21,       // d, normals of a, b, c, weights of b and c -> normal
-  image_plane_x = 22,        // i, offset, width, height, tangent
-  image_plane_y = 23,        // j, offset, height, tangent
-  view_ray = 24,             // x, y, right, up, forward -> d
-  perpendicular = 25,        // d, p, least -> foot, h
+  unit_distance = 18,   // a, b
+  phong = 19,           // cosine of normal and light, apart, shininess
+  ray_triangle = 20,    // d, a, b, c -> distance, weights of b and c
+  shading_normal = 21,  // d, normals of a, b, c, weights of b and c -> normal
+  image_plane_x = 22,   // i, offset, width, height, tangent
+  image_plane_y = 23,   // j, offset, height, tangent
+  view_ray = 24,        // x, y, right, up, forward -> d
+  perpendicular = 25,   // d, p, least -> foot, h
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -94,7 +94,8 @@ void add_reflection_checks(std::vector<Check>&);
 void add_grid_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 
-// The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector instructions.
+// The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector
+// instructions.
 inline double as_float(double x) {
   const volatile float nearest = static_cast<float>(x);
   return static_cast<double>(nearest);

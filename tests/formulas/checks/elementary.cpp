@@ -27,7 +27,8 @@ Measured measure_exp(const Run& run) {
 
 Measured measure_log(const Run& run) {
   Columns in(1);
-  for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 1021) in[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
+  for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 1021)
+    in[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
   in[0].push_back(1);
   const Columns found = run({Formula::log, in});
   Measured m;

@@ -22,7 +22,9 @@ Measured measure_coordinate(const Run& run) {
   Measured m;
   for (std::size_t i = 0; i < in[0].size(); ++i) {
     const double cell = in[1][i] / in[2][i], truth = (in[0][i] - cell / 2) / cell;
-    m.add(std::fabs(found[0][i] - truth) / in[2][i], [&] { return place({{"x", in[0][i]}, {"size", in[1][i]}, {"n", in[2][i]}}); });
+    m.add(std::fabs(found[0][i] - truth) / in[2][i], [&] {
+      return place({{"x", in[0][i]}, {"size", in[1][i]}, {"n", in[2][i]}});
+    });
   }
   return m;
 }
@@ -43,8 +45,9 @@ Measured measure_lookup(const Run& run, bool clamped) {
     const double first = clamped ? 0 : -1, last = clamped ? std::max(n - 2, 0.0) : n - 1;
     const double held = std::clamp(c, clamped ? 0.0 : -1.0, clamped ? n - 1 : n);
     const bool good = lower == std::floor(lower) && lower >= first && lower <= last && weight >= 0 && weight <= 1;
-    m.add(good ? std::fabs(lower + weight - held) / n : HUGE_VAL,
-          [&] { return place({{"coordinate", c}, {"n", n}, {"lower", lower}, {"weight", weight}}); });
+    m.add(good ? std::fabs(lower + weight - held) / n : HUGE_VAL, [&] {
+      return place({{"coordinate", c}, {"n", n}, {"lower", lower}, {"weight", weight}});
+    });
   }
   return m;
 }

@@ -10,7 +10,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::vector<Phase> phases() {
-  std::vector<Phase> all{{PhaseKind::isotropic, 0}, {PhaseKind::rayleigh, 0}, {PhaseKind::mie_hazy, 0}, {PhaseKind::mie_murky, 0}};
+  std::vector<Phase> all{
+      {PhaseKind::isotropic, 0}, {PhaseKind::rayleigh, 0}, {PhaseKind::mie_hazy, 0}, {PhaseKind::mie_murky, 0}};
   for (const double g : {-0.99, -0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.96, 0.99}) {
     all.push_back({PhaseKind::henyey_greenstein, g});
     all.push_back({PhaseKind::cornette_shanks, g});

@@ -22,7 +22,8 @@ Measured measure_lambert(const Run& run) {
   return m;
 }
 
-// 1 - cos of angles from 1e-3 to pi. Rounded to float, the vectors are no longer of length 1, which matters more to smaller angles.
+// 1 - cos of angles from 1e-3 to pi. Rounded to float, the vectors are no longer of length 1, which matters more to smaller
+// angles.
 Measured measure_unit_distance(const Run& run) {
   Random random(stream);
   Columns in;
@@ -61,8 +62,9 @@ Measured measure_phong(const Run& run) {
     const double apart = in[1][i], n = in[2][i], power = apart < 1 ? n * std::log1p(-apart) : 0;
     const double truth = in[0][i] > 0 && apart < 1 ? (n + 1) / (2 * pi) * std::exp(power) : 0;
     if (power < -80) continue;  // held there
-    m.add(relative_error(found[0][i], truth) / (1 - power),
-          [&] { return place({{"cosine", in[0][i]}, {"apart", apart}, {"shininess", n}}); });
+    m.add(relative_error(found[0][i], truth) / (1 - power), [&] {
+      return place({{"cosine", in[0][i]}, {"apart", apart}, {"shininess", n}});
+    });
   }
   return m;
 }

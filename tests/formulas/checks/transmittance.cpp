@@ -63,7 +63,9 @@ Measured measure_of_segment(const Run& run, Formula formula, Truth&& truth) {
   const Columns in = segments(), found = run({formula, in});
   Measured m;
   for (std::size_t i = 0; i < in[0].size(); ++i) {
-    m.add(relative_error(found[0][i], truth(in[0][i], in[1][i])), [&] { return place({{"length", in[0][i]}, {"extinction", in[1][i]}}); });
+    m.add(relative_error(found[0][i], truth(in[0][i], in[1][i])), [&] {
+      return place({{"length", in[0][i]}, {"extinction", in[1][i]}});
+    });
   }
   return m;
 }
@@ -71,8 +73,9 @@ Measured measure_of_segment(const Run& run, Formula formula, Truth&& truth) {
 const double infinite = as_float(1e30);
 
 Measured measure_depth(const Run& run) {
-  return measure_of_segment(run, Formula::optical_depth,
-                            [](double length, double k) { return length >= infinite && k > 0 ? 1e30 : std::min(length * k, 1e30); });
+  return measure_of_segment(run, Formula::optical_depth, [](double length, double k) {
+    return length >= infinite && k > 0 ? 1e30 : std::min(length * k, 1e30);
+  });
 }
 Measured measure_attenuated(const Run& run) {
   return measure_of_segment(run, Formula::attenuated_length, [](double length, double k) {
@@ -109,7 +112,9 @@ Measured measure_irradiance(const Run& run) {
   for (std::size_t i = 0; i < in[0].size(); ++i) {
     const double l = in[0][i], tau = in[2][i] * l, r = std::max(l, in[1][i]), truth = left_of(tau) / (r * r);
     if (truth < 2e-38) continue;  // no normal float
-    m.add(relative_error(found[0][i], truth) / (1 + tau), [&] { return place({{"distance", l}, {"radius", in[1][i]}, {"optical depth", tau}}); });
+    m.add(relative_error(found[0][i], truth) / (1 + tau), [&] {
+      return place({{"distance", l}, {"radius", in[1][i]}, {"optical depth", tau}});
+    });
   }
   return m;
 }

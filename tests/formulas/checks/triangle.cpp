@@ -13,8 +13,8 @@ void add_triangle(Columns& in, const glm::dvec3& d, const glm::dvec3& a, const g
   add_call(in, d.x, d.y, d.z, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z);
 }
 
-// Rays through the inside, seen under any angle. What is known of the distance and the weights falls with the cosine of that angle and
-// with the triangle's height beside its distance: the error is stated beside that.
+// Rays through the inside, seen under any angle. What is known of the distance and the weights falls with the cosine of that
+// angle and with the triangle's height beside its distance: the error is stated beside that.
 Measured measure_ray_triangle(const Run& run) {
   Random random(stream);
   Columns in;
@@ -32,15 +32,17 @@ Measured measure_ray_triangle(const Run& run) {
   for (std::size_t k = 0; k < in[0].size(); ++k) {
     const glm::dvec3 d = vector_at(in, 0, k), a = vector_at(in, 3, k), u = vector_at(in, 6, k) - a, v = vector_at(in, 9, k) - a;
     const glm::dvec3 n = glm::cross(u, v);
-    const double cosine = std::fabs(glm::dot(n, d)) / glm::length(n), far = std::max({glm::length(a), glm::length(a + u), glm::length(a + v)});
+    const double cosine = std::fabs(glm::dot(n, d)) / glm::length(n),
+                 far = std::max({glm::length(a), glm::length(a + u), glm::length(a + v)});
     const double height = glm::length(n) / std::max({glm::length(u), glm::length(v), glm::length(u - v)});
     if (!(cosine > 0.02) || height < 0.002 * far) continue;
     // Moeller and Trumbore 1997: Cramer's rule on a + wb u + wc v = t d.
     const glm::dvec3 p = glm::cross(d, v), q = glm::cross(-a, u);
     const double det = glm::dot(u, p), t = glm::dot(v, q) / det, wb = glm::dot(-a, p) / det, wc = glm::dot(d, q) / det;
     const double known = far / (height * cosine);
-    m.add(std::fabs(found[0][k] - t) * cosine / far + (std::fabs(found[1][k] - wb) + std::fabs(found[2][k] - wc)) / known,
-          [&] { return place({{"distance", t}, {"b", wb}, {"c", wc}, {"cosine", cosine}, {"height", height}}); });
+    m.add(std::fabs(found[0][k] - t) * cosine / far + (std::fabs(found[1][k] - wb) + std::fabs(found[2][k] - wc)) / known, [&] {
+      return place({{"distance", t}, {"b", wb}, {"c", wc}, {"cosine", cosine}, {"height", height}});
+    });
   }
   return m;
 }
@@ -62,17 +64,19 @@ Measured measure_ray_triangle_held(const Run& run) {
   const Columns found = run({Formula::ray_triangle, in});
   Measured m;
   for (std::size_t k = 0; k < in[0].size(); ++k) {
-    const double far = std::max({glm::length(vector_at(in, 3, k)), glm::length(vector_at(in, 6, k)), glm::length(vector_at(in, 9, k))});
+    const double far =
+        std::max({glm::length(vector_at(in, 3, k)), glm::length(vector_at(in, 6, k)), glm::length(vector_at(in, 9, k))});
     const double t = found[0][k], wb = found[1][k], wc = found[2][k];
     const bool inside = t >= 0 && wb >= 0 && wc >= 0;  // NaN is not
-    m.add(inside ? std::max({t / far - 1, wb + wc - 1, 0.0}) : HUGE_VAL,
-          [&] { return place({{"distance", t}, {"farthest", far}, {"b", wb}, {"c", wc}}); });
+    m.add(inside ? std::max({t / far - 1, wb + wc - 1, 0.0}) : HUGE_VAL, [&] {
+      return place({{"distance", t}, {"farthest", far}, {"b", wb}, {"c", wc}});
+    });
   }
   return m;
 }
 
-// Interpolated, of length 1, against the ray. The error is stated beside the length of the sum: what is left where normals cancel has few
-// digits.
+// Interpolated, of length 1, against the ray. The error is stated beside the length of the sum: what is left where normals cancel
+// has few digits.
 Measured measure_shading_normal(const Run& run) {
   Random random(stream + 2);
   Columns in;
@@ -95,7 +99,9 @@ Measured measure_shading_normal(const Run& run) {
     const double wb = in[12][k], wc = in[13][k];
     const glm::dvec3 sum = (1 - wb - wc) * vector_at(in, 3, k) + wb * vector_at(in, 6, k) + wc * vector_at(in, 9, k);
     const double length = glm::length(sum), toward = length > 0 ? glm::dot(sum, d) / length : 0;
-    const auto where = [&] { return place({{"length of the sum", length}, {"toward the ray", toward}, {"call", static_cast<double>(k)}}); };
+    const auto where = [&] {
+      return place({{"length of the sum", length}, {"toward the ray", toward}, {"call", static_cast<double>(k)}});
+    };
     if (length == 0) {
       m.add(glm::length(vector_at(found, 0, k) + d), where);
     } else if (length > 1e-3 && std::fabs(toward) * length > 1e-5) {

@@ -12,8 +12,8 @@
 
 #define FORMULA inline
 #define OUT(type) type&
-#define INPUTS const real *a
-#define RESULTS real *r
+#define INPUTS const real* a
+#define RESULTS real* r
 namespace airlight::damaged {
 #include "tests/formulas/calls.h"
 }
@@ -27,7 +27,8 @@ airlight::Columns run(const airlight::Calls& calls) {
   for (std::size_t i = 0; i < n; ++i) {
     double a[most_inputs] = {}, r[most_results] = {};
     for (std::size_t k = 0; k < calls.inputs.size(); ++k) a[k] = calls.inputs[k][i];
-    damaged::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g, a, r);
+    damaged::call_formula(static_cast<int>(calls.formula), calls.table.data(), static_cast<int>(calls.phase.kind), calls.phase.g,
+                          a, r);
     for (std::size_t k = 0; k < most_results; ++k) results[k][i] = r[k];
   }
   return results;
