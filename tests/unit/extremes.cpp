@@ -1,0 +1,123 @@
+// Whatever loads renders to finite numbers: scenes at the ends of what a scene file may say, on both backends.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/airlight.h"
+#include "common/techniques/technique.h"
+#include "tests/parity/inputs.h"
+
+namespace airlight {
+
+namespace {
+
+// Draws from lists of extreme and ordinary values, by a counter.
+class Draw {
+ public:
+  explicit Draw(std::uint32_t seed) : seed_(seed) {}
+  template <std::size_t n>
+  double of(const std::array<double, n>& values) {
+    return values[static_cast<std::size_t>(static_cast<double>(n) * unit())];
+  }
+  double unit() { return uniform(seed_, next_++); }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  glm::dvec3 vector(double reach) { return {between(-reach, reach), between(-reach, reach), between(-reach, reach)}; }
+
+ private:
+  std::uint32_t seed_, next_ = 0;
+};
+
+Mesh triangles(Draw& draw) {
+  Mesh mesh;
+  const double size = draw.of(std::array{1e-6, 1.0, 10.0, 1e6, 1e9});
+  for (unsigned i = 0; i < 30; ++i) {
+    mesh.positions.emplace_back(draw.vector(size));
+    mesh.normals.push_back(glm::normalize(glm::vec3(draw.vector(1)) + glm::vec3(0, 1e-3F, 0)));
+  }
+  for (unsigned i = 0; i < 30; ++i) {
+    // Some without an area: a corner twice.
+    mesh.triangles.emplace_back(i, (i * 7 + 1) % 30, i % 5 == 0 ? i : (i * 11 + 2) % 30);
+  }
+  return mesh;
+}
+
+Scene extreme_scene(std::uint32_t seed) {
+  Draw draw(seed);
+  Scene s;
+  s.camera.position = draw.vector(draw.of(std::array{0.0, 1.0, 1e3, 1e8}));
+  s.camera.look_at = s.camera.position + glm::dvec3(0, 0, -1) + draw.vector(0.3);
+  s.camera.vertical_fov = draw.of(std::array{0.01, 1.0, 45.0, 120.0, 179.0});
+  s.camera.resolution = {40, 30};
+  s.sky_distance = draw.of(std::array{0.0, 1e-6, 10.0, 1e9, static_cast<double>(INFINITY)});
+  s.medium.extinction = draw.of(std::array{0.0, 1e-30, 1e-12, 1e-3, 0.3, 10.0, 1e3, 1e6});
+  s.medium.phase.kind = static_cast<PhaseKind>(static_cast<int>(draw.between(0, 6)));
+  const bool peaked = s.medium.phase.kind == PhaseKind::henyey_greenstein || s.medium.phase.kind == PhaseKind::cornette_shanks;
+  s.medium.phase.g = peaked ? draw.of(std::array{-0.99, -0.6, 0.0, 0.6, 0.99}) : 0;
+  s.medium.albedo = glm::dvec3(draw.of(std::array{0.0, 0.5, 1.0}));
+  s.medium.ambient = glm::dvec3(draw.of(std::array{0.0, 0.1, 1e12}));
+  s.medium.emission = glm::dvec3(draw.of(std::array{0.0, 1.0}));
+  s.background = glm::dvec3(draw.of(std::array{0.0, 1.0, 1e12}));
+  for (int i = 0; i < 4; ++i) {
+    LightSource light;
+    const glm::dvec3 forward = s.camera.look_at - s.camera.position;
+    switch (static_cast<int>(draw.between(0, 5))) {
+      case 0:
+        light.position = s.camera.position;
+        break;
+      case 1:
+        light.position = s.camera.position + 3.0 * forward;
+        break;  // on the middle of the view
+      case 2:
+        light.position = s.camera.position - 2.0 * forward;
+        break;
+      case 3:
+        light.position = s.camera.position + draw.vector(1e8);
+        break;
+      default:
+        light.type = LightType::directional;
+        light.direction = glm::normalize(forward + draw.vector(draw.of(std::array{0.0, 1e-6, 1.0})));
+    }
+    light.power = glm::dvec3(draw.of(std::array{0.0, 1e-12, 1.0, 1e12}), 1, 0);
+    light.radius = draw.of(std::array{1e-6, 1e-3, 1.0, 1e6});
+    s.lights.push_back(light);
+  }
+  const int surfaces = static_cast<int>(draw.between(0, 3));
+  for (int i = 0; i < surfaces; ++i) {
+    Surface surface;
+    surface.mesh = std::make_shared<const Mesh>(triangles(draw));
+    surface.transform[3] = glm::dvec4(s.camera.position + draw.vector(2), 1);
+    surface.material.specular = glm::vec3(glm::dvec3(draw.of(std::array{0.0, 1.0})));
+    surface.material.shininess = static_cast<float>(draw.of(std::array{0.0, 1.0, 1e4}));
+    s.surfaces.push_back(surface);
+  }
+  return s;
+}
+
+class Extremes : public testing::TestWithParam<std::string> {};
+
+TEST_P(Extremes, GiveFiniteNumbers) {
+  Renderer renderer({.backend = GetParam(), .gl_context = "osmesa"});
+  float largest = 0;
+  constexpr std::uint32_t scenes = 120;
+  for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
+    const Scene scene = extreme_scene(seed);
+    RenderSettings settings;
+    settings.images = image_names(scene);
+    const Frame frame = renderer.render(scene, settings);
+    for (const NamedImage& i : frame.images) {
+      for (const float v : i.image.values) {
+        ASSERT_TRUE(std::isfinite(v) && (v >= 0 || i.name == "normal")) << "scene " << seed << ", " << i.name << ": " << v;
+        if (i.name == "beauty") largest = std::max(largest, v);
+      }
+    }
+  }
+  std::printf("%u scenes, largest radiance %.3g\n", scenes, static_cast<double>(largest));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Extremes, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
+
+}  // namespace
+
+}  // namespace airlight
