@@ -109,6 +109,39 @@ TEST_P(RendererOn, MovesBetweenThreads) {
   EXPECT_EQ(found, expected);
 }
 
+// What a plan leaves out would not have changed a bit.
+TEST_P(RendererOn, SkipsWhatChangesNothing) {
+  Renderer renderer(options());
+  const Scene scene = lamp_in_fog(0.2);
+  Scene with_black_lamp = scene;
+  with_black_lamp.lights.insert(with_black_lamp.lights.begin(), with_black_lamp.lights[0]);
+  with_black_lamp.lights[0].power = {0, 0, 0};
+  EXPECT_NE(explain(with_black_lamp, {}).find("lights of zero power"), std::string::npos);
+  EXPECT_EQ(explain(scene, {}).find("lights of zero power"), std::string::npos);
+  EXPECT_EQ(beauty(renderer, with_black_lamp), beauty(renderer, scene));
+
+  // The smallest albedo has its airlight computed, none has not.
+  Scene faint = scene, black = scene;
+  faint.medium.albedo = glm::dvec3(1e-30);
+  black.medium.albedo = glm::dvec3(0);
+  EXPECT_EQ(explain(faint, {}).find("scatters nothing"), std::string::npos);
+  EXPECT_NE(explain(black, {}).find("scatters nothing"), std::string::npos);
+  const std::vector<float> computed = beauty(renderer, faint), skipped = beauty(renderer, black);
+  for (std::size_t i = 0; i < computed.size(); ++i) ASSERT_NEAR(computed[i], skipped[i], 1e-28F);
+
+  // A directional light needs no tables: the image is that of a scene where they are there for a lamp that lights nothing.
+  Scene sun = scene;
+  sun.lights[0].type = LightType::directional;
+  sun.lights[0].direction = {0, -1, 0};
+  Scene sun_and_lamp = sun;
+  sun_and_lamp.lights.push_back(scene.lights[0]);
+  sun_and_lamp.lights[1].power = glm::dvec3(1e-35);
+  EXPECT_NE(explain(sun, {}).find("no point light"), std::string::npos);
+  EXPECT_EQ(explain(sun_and_lamp, {}).find("no point light"), std::string::npos);
+  const std::vector<float> without = beauty(renderer, sun), with = beauty(renderer, sun_and_lamp);
+  for (std::size_t i = 0; i < with.size(); ++i) ASSERT_NEAR(without[i], with[i], 1e-28F);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, RendererOn, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
 
 // What GL says of the buffer that the caller has bound in its own context.
