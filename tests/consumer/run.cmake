@@ -8,7 +8,7 @@ endfunction()
 set(prefix ${BUILD}/consumer/prefix)
 file(REMOVE_RECURSE ${BUILD}/consumer)
 run(${CMAKE_COMMAND} --install ${BUILD} --component airlight --prefix ${prefix})
-run(${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${BUILD}/consumer/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/tests/consumer -B ${BUILD}/consumer/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${BUILD}/consumer/build)
 execute_process(COMMAND ${BUILD}/consumer/build/consumer WORKING_DIRECTORY ${BUILD}/consumer OUTPUT_VARIABLE told RESULT_VARIABLE code)
