@@ -31,7 +31,7 @@ class GlBackend final : public Backend {
 
   void upload(Buffer buffer, std::span<const std::byte> bytes, std::uint64_t key) override {
     const GlContext::Current current(*context_);
-    HeldBuffer& held = runner_->buffers[buffer];
+    HeldStorage& held = runner_->buffers[buffer];
     held.key = 0;
     if (!held.buffer) held.buffer = std::make_unique<GlBuffer>(context_->gl());
     held.buffer->fill(bytes.size(), bytes.data());
@@ -46,7 +46,7 @@ class GlBackend final : public Backend {
 
   void upload(const Image& image, std::span<const float> values, std::uint64_t key) override {
     const GlContext::Current current(*context_);
-    HeldImage& held = prepare(image);
+    HeldTexture& held = prepare(image);
     write_texture(context_->gl(), *held.texture, image, values);
     held.key = key;
   }
@@ -62,7 +62,7 @@ class GlBackend final : public Backend {
 
  private:
   std::uint64_t upload_key(Handle) const;
-  HeldImage& prepare(const Image&);
+  HeldTexture& prepare(const Image&);
   void release_transients();
 
   std::unique_ptr<GlContext> context_;
@@ -78,8 +78,8 @@ std::uint64_t GlBackend::upload_key(Handle h) const {
 }
 
 // A texture of the image's shape; what it held is gone.
-HeldImage& GlBackend::prepare(const Image& image) {
-  HeldImage& held = runner_->images[image];
+HeldTexture& GlBackend::prepare(const Image& image) {
+  HeldTexture& held = runner_->images[image];
   held.key = 0;
   held.image = image;
   held.transient = false;

@@ -108,7 +108,7 @@ std::string StepRunner::lights(std::span<const Light> lights) {
 GLuint StepRunner::derived(const Buffer& from, std::size_t bytes, const std::function<void(GLuint)>& make) {
   const auto source = buffers.find(from);
   if (source == buffers.end()) throw std::logic_error("a step reads a buffer that was not uploaded");
-  HeldBuffer& made = derived_[from];
+  HeldStorage& made = derived_[from];
   if (made.key == source->second.key && made.buffer && made.buffer->bytes() == bytes) return made.buffer->name();
   if (!made.buffer) made.buffer = std::make_unique<GlBuffer>(gl_);
   made.key = 0;

@@ -24,14 +24,14 @@ namespace airlight {
 constexpr GLuint view_binding = 0, lights_binding = 1, knobs_binding = 2;  // uniform blocks
 constexpr GLuint tables_binding = 7, many_lights_binding = 6;              // storage buffers
 
-struct HeldImage {
+struct HeldTexture {
   Image image;
   std::unique_ptr<Texture> texture;
   std::uint64_t key = 0;   // of its content; 0: none
   bool transient = false;  // goes back to the pool after its last reader
 };
 
-struct HeldBuffer {
+struct HeldStorage {
   std::unique_ptr<GlBuffer> buffer;
   std::uint64_t key = 0;
 };
@@ -68,8 +68,8 @@ class StepRunner {
   void each_pixel(Program&, Extent, const Progress&);
   void each(Program&, std::size_t items, std::size_t group);  // a compute shader over a list
 
-  std::map<Handle, HeldImage> images;
-  std::map<Handle, HeldBuffer> buffers;
+  std::map<Handle, HeldTexture> images;
+  std::map<Handle, HeldStorage> buffers;
 
  private:
   const Texture& texture(const Image&) const;
@@ -79,7 +79,7 @@ class StepRunner {
   TexturePool pool_;
   std::map<std::string, std::unique_ptr<Program>> programs_;
   std::map<GLuint, GlBuffer> blocks_, small_;
-  std::map<Handle, HeldBuffer> derived_;
+  std::map<Handle, HeldStorage> derived_;
 };
 
 void run(const SurfaceVisibility&, StepRunner&, const Progress&);
