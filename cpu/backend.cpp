@@ -182,6 +182,7 @@ std::string CpuBackend::describe() const {
 }
 
 void CpuBackend::upload(Buffer buffer, std::span<const std::byte> bytes, std::uint64_t key) {
+  state_->images.erase(buffer);  // another plan may have had an image under this handle
   HeldBuffer& held = state_->buffers[buffer];
   held.bytes.assign(bytes.begin(), bytes.end());
   held.key = key;
@@ -193,6 +194,7 @@ bool CpuBackend::holds(Buffer buffer, std::uint64_t key) const {
 }
 
 void CpuBackend::upload(const Image& image, std::span<const float> rows, std::uint64_t key) {
+  state_->buffers.erase(image);
   HeldImage& held = state_->images[image];
   held.reset(image);
   held.from_rows(rows);
@@ -223,6 +225,7 @@ void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progre
         }
       }
       for (const Image& image : outputs_of(steps[i].what)) {
+        s.buffers.erase(image);
         writer[image] = g;
         if (image.keep) {
           s.images[image].reset(image);

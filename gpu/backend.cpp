@@ -31,6 +31,7 @@ class GlBackend final : public Backend {
 
   void upload(Buffer buffer, std::span<const std::byte> bytes, std::uint64_t key) override {
     const GlContext::Current current(*context_);
+    runner_->images.erase(buffer);  // another plan may have had an image under this handle
     HeldStorage& held = runner_->buffers[buffer];
     held.key = 0;
     if (!held.buffer) held.buffer = std::make_unique<GlBuffer>(context_->gl());
@@ -79,6 +80,7 @@ std::uint64_t GlBackend::upload_key(Handle h) const {
 
 // A texture of the image's shape; what it held is gone.
 HeldTexture& GlBackend::prepare(const Image& image) {
+  runner_->buffers.erase(image);
   HeldTexture& held = runner_->images[image];
   held.key = 0;
   held.image = image;

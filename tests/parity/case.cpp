@@ -1,5 +1,7 @@
 #include "tests/parity/case.h"
 
+#include "common/plan/hash.h"
+
 namespace airlight {
 
 std::vector<NamedCase> all_cases() {
@@ -12,9 +14,13 @@ std::vector<NamedCase> all_cases() {
 }
 
 void upload(Backend& backend, const Case& c) {
-  std::uint64_t key = 1;  // any that differ: a case's backend sees no other content under its handles
-  for (const auto& [buffer, bytes] : c.buffers) backend.upload(buffer, bytes, key++);
-  for (const auto& [image, values] : c.images) backend.upload(image, values, key++);
+  const auto key = [](std::span<const std::byte> content) {
+    Hash hash;
+    hash.bytes(content);
+    return hash.value();
+  };
+  for (const auto& [buffer, bytes] : c.buffers) backend.upload(buffer, bytes, key(bytes));
+  for (const auto& [image, values] : c.images) backend.upload(image, values, key(std::as_bytes(std::span(values))));
 }
 
 std::vector<float> download(Backend& backend, const Image& image) {

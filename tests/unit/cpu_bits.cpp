@@ -13,6 +13,7 @@
 #include "common/scene/sha256.h"
 #include "cpu/backend.h"
 #include "cpu/parallel.h"
+#include "gpu/backend.h"
 #include "tests/parity/case.h"
 
 namespace airlight {
@@ -147,6 +148,28 @@ TEST(Reuse, ASecondRunDoesNothingUntilAnInputChanges) {
   backend.run(c.steps, stats, progress);
   for (const StepStats& step : stats.steps) EXPECT_FALSE(step.reused) << step.name;
   EXPECT_EQ(download(backend, c.results[0].second), first);
+}
+
+// Each case has its own meaning for each handle.
+TEST(Reuse, OnePlanAfterAnotherIsAsOnANewBackend) {
+  Stats stats;
+  NoProgress progress;
+  const auto results = [&](Backend& backend, const NamedCase& named) {
+    const Case c = named.make({100, 75});
+    upload(backend, c);
+    backend.run(c.steps, stats, progress);
+    std::vector<std::vector<float>> values;
+    for (const auto& result : c.results) values.push_back(download(backend, result.second));
+    return values;
+  };
+  CpuBackend cpu({});
+  const std::unique_ptr<Backend> gl = make_gl_backend({.context = "osmesa"});
+  for (const NamedCase& named : all_cases()) {
+    if (named.name.find("1M") != named.name.npos) continue;
+    CpuBackend new_cpu({});
+    EXPECT_EQ(results(cpu, named), results(new_cpu, named)) << named.name;
+    EXPECT_EQ(results(*gl, named), results(*make_gl_backend({.context = "osmesa"}), named)) << named.name;
+  }
 }
 
 TEST(Caller, KeepsItsFloatingPointMode) {
