@@ -20,8 +20,9 @@ HWY_INLINE Real dot(const Real3& a, const Real3& b) { return fma(a.x, b.x, fma(a
 
 // Unit directions of the rays of pixels i .. i + lanes - 1 of the tile.
 HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {
-  const Real column = first_lanes() + static_cast<float>(tile.x + i % tile_side);
-  const Real row = static_cast<float>(tile.y + i / tile_side);
+  const int x0 = tile.x + i % tile_side, y0 = tile.y + i / tile_side;
+  const Real column = first_lanes() + static_cast<float>(x0);
+  const Real row = static_cast<float>(y0);
   const auto width = static_cast<float>(view.extent.width), height = static_cast<float>(view.extent.height);
   const Real x = image_plane_x(column, view.offset.x, width, height, view.tan_half_fov);
   const Real y = image_plane_y(row, view.offset.y, height, view.tan_half_fov);

@@ -12,7 +12,7 @@ namespace {
 
 // A name becomes part of the name of an image (airlight.<name>, in lists with commas).
 std::string parse_name(const Node& node, const std::vector<LightSource>& before) {
-  const std::string name = node.string();
+  std::string name = node.string();
   if (name.size() > 64) node.fail("longer than 64 bytes, expected a shorter name");
   if (name.find_first_of(", /\\") != name.npos)
     node.fail(fmt::format("{}, expected a name without commas, blanks and slashes", json::quoted(name)));
