@@ -33,6 +33,21 @@ struct Gaussian {
   glm::dvec3 emission{0, 0, 0};  // [W/m^3/sr]
 };
 
+// Values on a box of cells: value (x, y, z) stands at x + size.x (y + size.y z) and is sampled at the centre of its cell
+// (common/formulas/grid.h). Values are finite and not negative.
+struct VoxelGrid {
+  glm::ivec3 size{1, 1, 1};  // cells an axis, each > 0
+  std::vector<float> values;
+};
+
+// Extinction given by a voxel grid; it falls to 0 half a cell outside the box.
+struct GridMedium {
+  std::shared_ptr<const VoxelGrid> voxels;
+  glm::dmat4 transform{1.0};  // cells to world, affine, invertible: the box is 0..size before it, value (0, 0, 0) stands at 1/2
+  double scale = 1;           // [1/m] extinction where the value is 1
+  glm::dvec3 albedo{1, 1, 1};
+};
+
 struct Medium {
   Phase phase;
   glm::dvec3 albedo{1, 1, 1};    // each 0..1
@@ -40,8 +55,9 @@ struct Medium {
   glm::dvec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
   double extinction = 0;         // [1/m] of the homogeneous part
   std::vector<Gaussian> gaussians;
+  std::optional<GridMedium> grid;
 
-  bool empty() const { return extinction == 0 && gaussians.empty(); }
+  bool empty() const { return extinction == 0 && gaussians.empty() && !grid; }
 };
 
 enum class LightType { point, directional };

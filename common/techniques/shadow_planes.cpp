@@ -12,6 +12,7 @@ namespace {
 
 std::optional<std::string> refuses(const Scene& scene) {
   if (!scene.medium.gaussians.empty()) return "it renders homogeneous media only, the scene has Gaussians";
+  if (scene.medium.grid) return "it renders homogeneous media only, the scene has a grid";
   return std::nullopt;
 }
 

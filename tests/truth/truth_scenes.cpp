@@ -119,6 +119,10 @@ class Content {
     for (const T& one : all) add(one);
   }
 
+  void add(const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column) add(m[column]);
+  }
+
   // Structured bindings: a new member does not compile until it is thought of here.
   void add(const Camera& camera) {
     const auto& [position, look_at, up, vertical_fov, resolution] = camera;  // the resolution is the caller's
@@ -133,8 +137,11 @@ class Content {
     add(center), add(radius), add(extinction), add(albedo), add(emission);
   }
   void add(const Medium& medium) {
-    const auto& [phase, albedo, ambient, emission, extinction, gaussians] = medium;
+    const auto& [phase, albedo, ambient, emission, extinction, gaussians, grid] = medium;
     add(phase), add(albedo), add(ambient), add(emission), add(extinction), add(gaussians);
+    if (!grid) return;
+    const auto& [voxels, transform, scale, grid_albedo] = *grid;
+    add(voxels->size), add(voxels->values), add(transform), add(scale), add(grid_albedo);
   }
   void add(const LightSource& light) {
     const auto& [type, name, position, direction, power, radius] = light;
@@ -150,8 +157,7 @@ class Content {
   }
   void add(const Surface& s) {
     const auto& [mesh, transform, casts_shadow, material] = s;
-    add(*mesh), add(casts_shadow), add(material);
-    for (int column = 0; column < 4; ++column) add(transform[column]);
+    add(*mesh), add(casts_shadow), add(material), add(transform);
   }
   void add(const Scene& scene) {
     const auto& [camera, sky_distance, medium, lights, surfaces, background, technique, settings, hash] = scene;
