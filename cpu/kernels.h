@@ -10,6 +10,8 @@ namespace airlight {
 void run_tile(const ViewTransmittance&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
+void run_tile(const RayMarch&, const TileView&, Simd);
+void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 
 }  // namespace airlight

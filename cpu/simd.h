@@ -114,6 +114,23 @@ HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, r
   } while (!hn::AllFalse(di, waiting));
   return result;
 }
+// The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
+HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  const Ints di;
+  const IntVec width = to_int(nx), layer_size = hn::Mul(width, to_int(ny));
+  const IntVec index = hn::Add(to_int(x), hn::Add(hn::Mul(width, to_int(y)), hn::Mul(layer_size, to_int(z))));
+  const auto at = [&](IntVec i) HWY_ATTR { return Real(hn::GatherIndex(Floats(), t, i)); };
+  const auto row = [&](IntVec i) HWY_ATTR {
+    const Real a = at(i);
+    return fma(u, at(hn::Add(i, hn::Set(di, 1))) - a, a);
+  };
+  const auto layer = [&](IntVec i) HWY_ATTR {
+    const Real a = row(i);
+    return fma(v, row(hn::Add(i, width)) - a, a);
+  };
+  const Real a = layer(index);
+  return fma(w, layer(hn::Add(index, layer_size)) - a, a);
+}
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

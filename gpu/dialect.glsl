@@ -30,5 +30,19 @@ real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, rea
                  fma(a2, weighted_row(p + 2 * stride, b0, b1, b2, b3), a3 * weighted_row(p + 3 * stride, b0, b1, b2, b3))));
 }
 
+// The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
+real weighted_pair(int p, real u) { return fma(u, table_values[p + 1] - table_values[p], table_values[p]); }
+real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  int width = int(nx);
+  int layer = width * int(ny);
+  int p = t + int(x) + width * int(y) + layer * int(z);
+  real a = weighted_pair(p, u);
+  real near_layer = fma(v, weighted_pair(p + width, u) - a, a);
+  p += layer;
+  real b = weighted_pair(p, u);
+  real far_layer = fma(v, weighted_pair(p + width, u) - b, b);
+  return fma(w, far_layer - near_layer, near_layer);
+}
+
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

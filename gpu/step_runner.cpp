@@ -55,10 +55,13 @@ const Texture& StepRunner::texture(const Image& image) const {
 
 void StepRunner::read(GLuint unit, const Image& image) { gl_.BindTextureUnit(unit, texture(image).name()); }
 
-void StepRunner::write(GLuint unit, const Image& image) {
+void StepRunner::write(GLuint unit, const Image& image) { bind_image(unit, image, GL_WRITE_ONLY); }
+void StepRunner::read_write(GLuint unit, const Image& image) { bind_image(unit, image, GL_READ_WRITE); }
+
+void StepRunner::bind_image(GLuint unit, const Image& image, GLenum access) {
   if (!image) return;
   const Texture& t = texture(image);
-  gl_.BindImageTexture(unit, t.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, t.shape().format);
+  gl_.BindImageTexture(unit, t.name(), 0, GL_TRUE, 0, access, t.shape().format);
 }
 
 GLuint StepRunner::buffer_name(const Buffer& buffer) const {

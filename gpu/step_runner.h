@@ -50,6 +50,7 @@ class StepRunner {
 
   void read(GLuint unit, const Image&);                      // as a texture
   void write(GLuint unit, const Image&);                     // as an image; absent: nothing
+  void read_write(GLuint unit, const Image&);                // the same, to read back what was written
   void storage(GLuint binding, const Buffer&);               // as a storage buffer
   void storage(GLuint binding, std::span<const std::byte>);  // small values, made for this step
   GLuint buffer_name(const Buffer&) const;
@@ -73,6 +74,7 @@ class StepRunner {
 
  private:
   const Texture& texture(const Image&) const;
+  void bind_image(GLuint unit, const Image&, GLenum access);
   void block_bytes(GLuint binding, std::span<const std::byte>);
 
   const GlFunctions& gl_;
@@ -86,6 +88,8 @@ void run(const SurfaceVisibility&, StepRunner&, const Progress&);
 void run(const ViewTransmittance&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
+void run(const RayMarch&, StepRunner&, const Progress&);
+void run(const LightMarch&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

@@ -56,6 +56,15 @@ inline constexpr Tolerance tolerances[] = {
     {"phong", 1e-6, "beside 1 - n log(r.l): log_, the product and exp_"},
     {"grid_value_double", 1e-12, "beside the largest value: the coordinate is rounded in both"},
     {"grid_value", 3e-6, "beside the largest value: a coordinate up to 13 cells is rounded three times"},
+    {"erf", 3.5e-7, "absolute: the polynomial's 1e-7 and the rounding of its fifteen steps"},
+    {"atan", 3e-7, "relative: the polynomial's 2e-8, a quotient and a difference rounded"},
+    {"gaussian_table", 1e-7, "beside the whole line: the inputs are given as floats, which moves an end by 1e-7 of its distance"},
+    {"gaussian_depth", 6e-7, "beside the whole line: half the difference of two erf_, exp_ of a rounded square"},
+    {"opaque_step", 2e-6, "beside the opacity of the whole: 1 - opacity and its logarithm are rounded"},
+    {"step_angle", 2e-6, "beside the angle and 1 % of half a turn: the differences from the foot are rounded"},
+    {"step_means", 1e-2,
+     "beside the step: one of a tenth of the light's distance takes the half angle for the means, 0.1 / 12 away where it points "
+     "at the light"},
     {"airlight_allowed", 1, "a multiple of airlight_value of the value and airlight_end of the end value"},
 };
 

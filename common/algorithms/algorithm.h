@@ -7,13 +7,16 @@
 
 #include "common/algorithms/compose.h"
 #include "common/algorithms/homogeneous_airlight.h"
+#include "common/algorithms/light_march.h"
+#include "common/algorithms/ray_march.h"
 #include "common/algorithms/surface_shading.h"
 #include "common/algorithms/surface_visibility.h"
 #include "common/algorithms/view_transmittance.h"
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ViewTransmittance, SurfaceShading, HomogeneousAirlight, Compose>;
+using Algorithm =
+    std::variant<SurfaceVisibility, ViewTransmittance, SurfaceShading, HomogeneousAirlight, RayMarch, LightMarch, Compose>;
 
 struct Step {
   Algorithm what;

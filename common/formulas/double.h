@@ -33,8 +33,20 @@ inline real weighted_patch(table t, real at, int stride, real a0, real a1, real 
   const auto row = [&](const float* q) { return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3])))); };
   return fma(a0, row(p), fma(a1, row(p + stride), fma(a2, row(p + 2 * stride), a3 * row(p + 3 * stride))));
 }
+// The value at (x + u, y + v, z + w) between eight elements of a box in a table, x fastest: element (x, y, z) is number
+// x + nx (y + ny z). Lower corners and sizes are integral; linear an axis at a time, x first.
+inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  const auto width = static_cast<long>(nx), height = static_cast<long>(ny);
+  const float* p = t + static_cast<long>(x) + width * (static_cast<long>(y) + height * static_cast<long>(z));
+  const auto row = [&](const float* q) { return fma(u, static_cast<real>(q[1]) - static_cast<real>(q[0]), static_cast<real>(q[0])); };
+  const auto layer = [&](const float* q) { const real a = row(q); return fma(v, row(q + width) - a, a); };
+  const real a = layer(p);
+  return fma(w, layer(p + width * height) - a, a);
+}
 inline real exp_(real x) { return std::exp(x); }
 inline real log_(real x) { return std::log(x); }
+inline real erf_(real x) { return std::erf(x); }
+inline real atan_(real x) { return std::atan(x); }
 
 #include "common/formulas/formulas.h"
 

@@ -56,6 +56,16 @@ inline real weighted_patch(table t, real at, int stride, real a0, real a1, real 
   const auto row = [&](const float* q) { return fma(b0, real(q[0]), fma(b1, real(q[1]), fma(b2, real(q[2]), b3 * real(q[3])))); };
   return fma(a0, row(p), fma(a1, row(p + stride), fma(a2, row(p + 2 * stride), a3 * row(p + 3 * stride))));
 }
+// The value at (x + u, y + v, z + w) between eight elements of a box in a table, x fastest: element (x, y, z) is number
+// x + nx (y + ny z). Lower corners and sizes are integral; linear an axis at a time, x first.
+inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  const auto width = static_cast<long>(nx.v), height = static_cast<long>(ny.v);
+  const float* p = t + static_cast<long>(x.v) + width * (static_cast<long>(y.v) + height * static_cast<long>(z.v));
+  const auto row = [&](const float* q) { return fma(u, real(q[1]) - real(q[0]), real(q[0])); };
+  const auto layer = [&](const float* q) { const real a = row(q); return fma(v, row(q + width) - a, a); };
+  const real a = layer(p);
+  return fma(w, layer(p + width * height) - a, a);
+}
 
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

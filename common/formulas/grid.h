@@ -20,3 +20,29 @@ FORMULA void grid_lookup_clamped(real coordinate, real n, OUT(real) lower, OUT(r
   lower = min(floor(c), max(n - 2.0, 0.0));
   weight = c - lower;
 }
+
+// A grid of extinctions in a table: the numbers of cells nx, ny, nz, then (nx+2) (ny+2) (nz+2) values, x fastest: the grid in its ring of
+// zeros. c in cells as from grid_coordinate(); exactly 0 from half a cell outside the box on.
+FORMULA real grid_extinction(table t, real cx, real cy, real cz) {
+  real nx = element(t, 0);
+  real ny = element(t, 1);
+  real i;
+  real j;
+  real k;
+  real u;
+  real v;
+  real w;
+  grid_lookup_zero(cx, nx, i, u);
+  grid_lookup_zero(cy, ny, j, v);
+  grid_lookup_zero(cz, element(t, 2), k, w);
+  return weighted_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
+}
+
+// Bricks of 4 x 4 x 4 lookups: the numbers of bricks an axis, then for each the largest value that a lookup in it can meet, x fastest. Where
+// it is 0, so is grid_extinction(). nx, ny, nz: cells.
+FORMULA real grid_bound(table bricks, real cx, real cy, real cz, real nx, real ny, real nz) {
+  real i = floor((min(floor(max(cx, -1.0)), nx - 1.0) + 1.0) * 0.25);
+  real j = floor((min(floor(max(cy, -1.0)), ny - 1.0) + 1.0) * 0.25);
+  real k = floor((min(floor(max(cz, -1.0)), nz - 1.0) + 1.0) * 0.25);
+  return fetch(bricks, fma(fma(k, element(bricks, 1), j), element(bricks, 0), i) + 3.0);
+}

@@ -1,13 +1,16 @@
 #include "common/plan/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "common/error.h"
+#include "common/formulas/float.h"
 #include "common/plan/hash.h"
 
 namespace airlight {
@@ -105,6 +108,24 @@ std::vector<Material> materials_of(const Scene& scene) {
   for (const Surface& s : scene.surfaces) materials.push_back(s.material);
   if (materials.empty()) materials.emplace_back();
   return materials;
+}
+
+std::vector<GaussianDensity> gaussians_of(const Scene& scene) {
+  std::vector<GaussianDensity> gaussians;
+  for (const Gaussian& from : scene.medium.gaussians) {
+    if (!(from.extinction > 0)) continue;
+    GaussianDensity to;
+    to.center = from.center - scene.camera.position;
+    to.radius = static_cast<float>(from.radius);
+    to.extinction = static_cast<float>(from.extinction);
+    to.albedo = from.albedo;
+    to.emission = from.emission;
+    const double whole = from.extinction * from.radius * std::sqrt(std::numbers::pi);
+    const f32::Float radii = f32::sqrt(f32::log_(1e5 * std::max(whole, 1.0)));
+    to.reach = to.radius * radii.v;
+    gaussians.push_back(to);
+  }
+  return gaussians;
 }
 
 Geometry geometry_of(const Scene& scene, std::uint32_t first_id) {

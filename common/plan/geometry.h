@@ -17,6 +17,9 @@ View view_of(const Scene&, const FrameRequest&);
 // Lights of non-zero power only where `index` is given: position in the scene of each light returned.
 std::vector<Light> lights_of(const Scene&, std::vector<std::size_t>* index = nullptr);
 std::vector<Material> materials_of(const Scene&);
+// Gaussians of non-zero extinction, each with the distance at which a chord's optical depth falls below 1e-5, and below 1e-5 of
+// its own.
+std::vector<GaussianDensity> gaussians_of(const Scene&);
 
 // The surfaces as one list of triangles, laid out as SurfaceVisibility wants it. The three uploads are made on demand.
 struct Geometry {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
 
 namespace airlight {
@@ -37,6 +38,14 @@ class Hash {
   void add(const Light& l) { add(l.vector), add(l.power), add(l.radius), add(l.directional); }
   void add(const Phase& p) { add(p.kind), add(p.g); }
   void add(const Material& m) { add(m.diffuse), add(m.specular), add(m.shininess); }
+  void add(const glm::vec4& v) { add(v.x), add(v.y), add(v.z), add(v.w); }
+  void add(const GaussianDensity& g) {
+    add(g.center), add(g.radius), add(g.extinction), add(g.reach), add(g.albedo), add(g.emission);
+  }
+  void add(const GridDensity& g) {
+    for (const glm::vec4& row : g.cells) add(row);
+    add(g.size), add(g.albedo);
+  }
   template <class T>
   void add(const std::vector<T>& v) {
     add(v.size());

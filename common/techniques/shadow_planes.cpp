@@ -5,6 +5,7 @@
 #include "common/plan/airlight_tables.h"
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
+#include "common/plan/images.h"
 
 namespace airlight {
 
@@ -14,43 +15,6 @@ std::optional<std::string> refuses(const Scene& scene) {
   if (!scene.medium.gaussians.empty()) return "it renders homogeneous media only, the scene has Gaussians";
   if (scene.medium.grid) return "it renders homogeneous media only, the scene has a grid";
   return std::nullopt;
-}
-
-// Names images as they are wanted: a wanted one is kept, any other is transient.
-class Images {
- public:
-  Images(const FrameRequest& request, Plan& plan, std::uint32_t first_id) : request_(request), plan_(plan), next_id_(first_id) {}
-
-  Image make(std::string_view name, Format format) {
-    Image image{{next_id_++}, format, request_.extent, 1, wanted(name)};
-    if (image.keep) plan_.outputs.push_back({std::string(name), image, 0});
-    return image;
-  }
-  // Absent unless it is wanted.
-  Image optional(std::string_view name, Format format) {
-    if (wanted(name)) return make(name, format);
-    ++next_id_;  // ids do not depend on what is wanted
-    return {};
-  }
-  bool wanted(std::string_view name) const { return request_.images.contains(std::string(name)); }
-
- private:
-  const FrameRequest& request_;
-  Plan& plan_;
-  std::uint32_t next_id_;
-};
-
-Image per_light_images(const Scene& scene, const FrameRequest& request, const std::vector<std::size_t>& lights, std::uint32_t id,
-                       Plan& plan) {
-  Image image{{id}, Format::rgb32f, request.extent, std::max(1, static_cast<int>(lights.size())), true};
-  bool any = false;
-  for (std::size_t layer = 0; layer < lights.size(); ++layer) {
-    const std::string name = light_image_name(scene, lights[layer]);
-    if (!request.images.contains(name)) continue;
-    plan.outputs.push_back({name, image, static_cast<int>(layer)});
-    any = true;
-  }
-  return any ? image : Image{};
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {

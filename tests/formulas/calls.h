@@ -1,46 +1,25 @@
 // Every formula under one signature, in the dialect of common/formulas, so that one caller a build reaches them all. INPUTS is an
 // array of 14 reals `a`, RESULTS one of 3 reals `r`. The numbers are those of Formula in tests/formulas/checks/check.h.
 
-// A voxel of a grid in a table: three sizes, then the values, x fastest; 0 outside.
-FORMULA real voxel_or_zero(table t, real i, real j, real k) {
+// A grid as grid_extinction() takes it: its value at (x, y, z) from the corner of the box; outside, the outermost values or none.
+FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_x, real size_y, real size_z) {
   real nx = element(t, 0);
   real ny = element(t, 1);
   real nz = element(t, 2);
-  mask inside = (i >= 0.0) && (i < nx) && (j >= 0.0) && (j < ny) && (k >= 0.0) && (k < nz);
-  real ci = min(max(i, 0.0), nx - 1.0);
-  real cj = min(max(j, 0.0), ny - 1.0);
-  real ck = min(max(k, 0.0), nz - 1.0);
-  return select(inside, fetch(t, (ck * ny + cj) * nx + ci + 3.0), real(0.0));
-}
-
-FORMULA real trilinear(table t, real i, real j, real k, real u, real v, real w) {
-  real y0z0 = (1.0 - u) * voxel_or_zero(t, i, j, k) + u * voxel_or_zero(t, i + 1.0, j, k);
-  real y1z0 = (1.0 - u) * voxel_or_zero(t, i, j + 1.0, k) + u * voxel_or_zero(t, i + 1.0, j + 1.0, k);
-  real y0z1 = (1.0 - u) * voxel_or_zero(t, i, j, k + 1.0) + u * voxel_or_zero(t, i + 1.0, j, k + 1.0);
-  real y1z1 = (1.0 - u) * voxel_or_zero(t, i, j + 1.0, k + 1.0) + u * voxel_or_zero(t, i + 1.0, j + 1.0, k + 1.0);
-  return (1.0 - w) * ((1.0 - v) * y0z0 + v * y1z0) + w * ((1.0 - v) * y0z1 + v * y1z1);
-}
-
-FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_x, real size_y, real size_z) {
-  real cx = grid_coordinate(x, size_x, element(t, 0));
-  real cy = grid_coordinate(y, size_y, element(t, 1));
-  real cz = grid_coordinate(z, size_z, element(t, 2));
+  real cx = grid_coordinate(x, size_x, nx);
+  real cy = grid_coordinate(y, size_y, ny);
+  real cz = grid_coordinate(z, size_z, nz);
+  if (clamped == 0) return grid_extinction(t, cx, cy, cz);
   real i;
   real j;
   real k;
   real u;
   real v;
   real w;
-  if (clamped == 1) {
-    grid_lookup_clamped(cx, element(t, 0), i, u);
-    grid_lookup_clamped(cy, element(t, 1), j, v);
-    grid_lookup_clamped(cz, element(t, 2), k, w);
-  } else {
-    grid_lookup_zero(cx, element(t, 0), i, u);
-    grid_lookup_zero(cy, element(t, 1), j, v);
-    grid_lookup_zero(cz, element(t, 2), k, w);
-  }
-  return trilinear(t, i, j, k, u, v, w);
+  grid_lookup_clamped(cx, nx, i, u);
+  grid_lookup_clamped(cy, ny, j, v);
+  grid_lookup_clamped(cz, nz, k, w);
+  return weighted_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
 }
 
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
@@ -73,5 +52,18 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 22) r[0] = image_plane_x(a[0], a[1], a[2], a[3], a[4]);
   if (formula == 23) r[0] = image_plane_y(a[0], a[1], a[2], a[3]);
   if (formula == 24) view_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], r[0], r[1], r[2]);
+  if (formula == 26) r[0] = erf_(a[0]);
+  if (formula == 27) r[0] = atan_(a[0]);
+  if (formula == 28) r[0] = gaussian_falloff(a[0], a[1]);
+  if (formula == 29) r[0] = gaussian_depth(a[0], a[1], a[2], a[3]);
+  if (formula == 33) r[0] = grid_bound(t, a[0], a[1], a[2], a[3], a[4], a[5]);
+  if (formula == 30) r[0] = opaque_step(a[0], a[1], a[2], a[3]);
+  if (formula == 31) {
+    real ra = sqrt(fma(a[0] - a[2], a[0] - a[2], a[3] * a[3]));
+    real rb = sqrt(fma(a[1] - a[2], a[1] - a[2], a[3] * a[3]));
+    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3]);
+    step_means(a[0], a[1], ra, rb, a[2], a[3], r[0], r[1], r[2]);
+  }
+  if (formula == 32) r[0] = step_transmittance(a[0], a[1], a[2], a[3]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

@@ -14,7 +14,9 @@ namespace airlight {
 
 inline double number(const std::string& text) {
   double value = 0;
-  if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) {
+  const std::errc error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
+  if (error == std::errc::result_out_of_range && text.find("e-") != std::string::npos) return 0;  // below any double
+  if (error != std::errc()) {
     throw std::runtime_error("not a number: " + text);
   }
   return value;

@@ -31,9 +31,16 @@ std::span<const NamedCase> surface_visibility_cases();
 std::span<const NamedCase> view_transmittance_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
+std::span<const NamedCase> ray_march_cases();
+std::span<const NamedCase> light_march_cases();
 std::span<const NamedCase> compose_cases();
 std::span<const NamedCase> frame_cases();
 std::vector<NamedCase> all_cases();
+
+// Cases with so many loops that GL takes them in parts: for small images, and no benchmarks.
+std::span<const NamedCase> long_ray_march_cases();
+std::span<const NamedCase> long_light_march_cases();
+std::vector<NamedCase> long_cases();
 
 // Uploads the inputs; then run(case.steps) may be called any number of times.
 void upload(Backend&, const Case&);

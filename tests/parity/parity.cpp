@@ -14,6 +14,7 @@ namespace airlight {
 namespace {
 
 class Parity : public testing::TestWithParam<NamedCase> {};
+class ParityInParts : public Parity {};
 
 std::string gtest_name(const testing::TestParamInfo<NamedCase>& info) {
   std::string name(info.param.name);
@@ -23,8 +24,8 @@ std::string gtest_name(const testing::TestParamInfo<NamedCase>& info) {
   return name;
 }
 
-TEST_P(Parity, CpuEqualsGl) {
-  const Case c = GetParam().make({160, 120});
+void cpu_equals_gl(const NamedCase& named, Extent extent) {
+  const Case c = named.make(extent);
   CpuBackend cpu({});
   const std::unique_ptr<Backend> gl = make_gl_backend({});
   std::printf("%s against %s\n", cpu.describe().c_str(), gl->describe().c_str());
@@ -42,14 +43,18 @@ TEST_P(Parity, CpuEqualsGl) {
   const double share = edges.empty() ? 0 : tolerance("parity_edge_share");
   for (const auto& [name, image] : c.results) {
     const Difference d = difference(image, download(cpu, image), download(*gl, image), edges);
-    std::printf("%s %s: %s\n", std::string(GetParam().name).c_str(), name.c_str(), d.text().c_str());
+    std::printf("%s %s: %s\n", std::string(named.name).c_str(), name.c_str(), d.text().c_str());
     ASSERT_TRUE(d.finite) << name;
     EXPECT_LE(d.share, share) << name;
-    const bool tiny = GetParam().name == "surface_visibility/torus_1M" && name == "normal";
+    const bool tiny = named.name == "surface_visibility/torus_1M" && name == "normal";
     EXPECT_LE(d.share_inside, tiny ? tolerance("parity_off_edges") : 0) << name;
   }
 }
 
+TEST_P(Parity, CpuEqualsGl) { cpu_equals_gl(GetParam(), {160, 120}); }
+TEST_P(ParityInParts, CpuEqualsGl) { cpu_equals_gl(GetParam(), {32, 24}); }
+
+INSTANTIATE_TEST_SUITE_P(Cases, ParityInParts, testing::ValuesIn(long_cases()), gtest_name);
 INSTANTIATE_TEST_SUITE_P(Cases, Parity, testing::ValuesIn(all_cases()), gtest_name);
 
 }  // namespace

@@ -14,6 +14,8 @@ std::vector<Check> all_checks() {
   add_reflection_checks(checks);
   add_grid_checks(checks);
   add_airlight_checks(checks);
+  add_gaussian_checks(checks);
+  add_marching_checks(checks);
   return checks;
 }
 

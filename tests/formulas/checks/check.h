@@ -26,7 +26,7 @@ enum class Formula : int {
   grid_coordinate = 5,       // x, size, n
   grid_lookup_zero = 6,      // coordinate, n -> lower, weight
   grid_lookup_clamped = 7,
-  grid_value_zero = 8,  // x, y, z, size in x, y, z; the table: three sizes, then the values, x fastest
+  grid_value_zero = 8,  // x, y, z, size in x, y, z; the table as grid_extinction() takes it
   grid_value_clamped = 9,
   ray_length = 10,     // distance, sky distance
   optical_depth = 11,  // length, extinction
@@ -44,6 +44,14 @@ enum class Formula : int {
   image_plane_y = 23,   // j, offset, height, tangent
   view_ray = 24,        // x, y, right, up, forward -> d
   perpendicular = 25,   // d, p, least -> foot, h
+  erf = 26,
+  atan = 27,
+  gaussian_falloff = 28,    // inverse radius, squared distance
+  gaussian_depth = 29,      // inverse radius, h, from, to
+  opaque_step = 30,         // k, n, length, extinction
+  step_of_light = 31,       // a, b, foot, h -> angle over h, mean place, mean distance
+  step_transmittance = 32,  // front, tau, share, beside
+  grid_bound = 33,          // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -92,6 +100,8 @@ void add_phase_checks(std::vector<Check>&);
 void add_transmittance_checks(std::vector<Check>&);
 void add_reflection_checks(std::vector<Check>&);
 void add_grid_checks(std::vector<Check>&);
+void add_gaussian_checks(std::vector<Check>&);
+void add_marching_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector

@@ -1,4 +1,4 @@
-// exp_ and log_ over their domain, against the C library, in units in the last place of a float.
+// exp_ and log_ over their domain, against the C library, in units in the last place of a float; erf_ and atan_.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -38,11 +38,41 @@ Measured measure_log(const Run& run) {
   return m;
 }
 
+// Absolute: what optical depths need.
+Measured measure_erf(const Run& run) {
+  Columns in(1);
+  for (int i = -1000000; i <= 1000000; ++i) in[0].push_back(as_float(i * 5e-6));
+  for (const double x : {-1e30, -1e4, -1e-20, 1e-20, 1e4, 1e30}) in[0].push_back(as_float(x));
+  const Columns found = run({Formula::erf, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    m.add(std::fabs(found[0][i] - std::erf(in[0][i])), [&] { return place({{"x", in[0][i]}}); });
+  }
+  return m;
+}
+
+Measured measure_atan(const Run& run) {
+  Columns in(1);
+  for (int i = 0; i <= 1000000; ++i) in[0].push_back(as_float(i * 2e-6));
+  for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 100003)
+    in[0].push_back(static_cast<double>(std::bit_cast<float>(bits)));
+  const Columns found = run({Formula::atan, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    m.add(in[0][i] > 0 ? std::fabs(found[0][i] / std::atan(in[0][i]) - 1) : std::fabs(found[0][i]), [&] {
+      return place({{"x", in[0][i]}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_elementary_checks(std::vector<Check>& checks) {
   checks.push_back({"exp", measure_exp, "float_ulp_of_double", "exp_ulp"});
   checks.push_back({"log", measure_log, "float_ulp_of_double", "log_ulp"});
+  checks.push_back({"erf", measure_erf, "exact_double", "erf"});
+  checks.push_back({"atan", measure_atan, "exact_double", "atan"});
 }
 
 }  // namespace airlight

@@ -57,6 +57,11 @@ struct Grid {
   std::array<double, 3> size;
   bool exact;  // floats hold the voxels' centres
   std::vector<float> table = {};
+
+  double value(std::size_t i, std::size_t j, std::size_t k) const {
+    const auto width = static_cast<std::size_t>(n[0] + 2), height = static_cast<std::size_t>(n[1] + 2);
+    return static_cast<double>(table[3 + (i + 1) + width * ((j + 1) + height * (k + 1))]);
+  }
 };
 
 std::vector<Grid> grids() {
@@ -68,7 +73,14 @@ std::vector<Grid> grids() {
   for (Grid& grid : all) {
     for (double& s : grid.size) s = as_float(s);
     for (const int n : grid.n) grid.table.push_back(static_cast<float>(n));
-    for (int i = 0; i < grid.n[0] * grid.n[1] * grid.n[2]; ++i) grid.table.push_back(static_cast<float>(random.number(0.1, 1)));
+    for (int k = 0; k < grid.n[2] + 2; ++k) {
+      for (int j = 0; j < grid.n[1] + 2; ++j) {
+        for (int i = 0; i < grid.n[0] + 2; ++i) {
+          const bool ring = i == 0 || j == 0 || k == 0 || i > grid.n[0] || j > grid.n[1] || k > grid.n[2];
+          grid.table.push_back(ring ? 0.0F : static_cast<float>(random.number(0.1, 1)));
+        }
+      }
+    }
   }
   return all;
 }
@@ -85,10 +97,9 @@ double sum_of_tents(const Grid& grid, std::array<double, 3> x, bool clamped) {
     }
   }
   double sum = 0;
-  std::size_t at = 3;
-  for (const double w : tent[2]) {
-    for (const double v : tent[1]) {
-      for (const double u : tent[0]) sum += static_cast<double>(grid.table[at++]) * u * v * w;
+  for (std::size_t k = 0; k < tent[2].size(); ++k) {
+    for (std::size_t j = 0; j < tent[1].size(); ++j) {
+      for (std::size_t i = 0; i < tent[0].size(); ++i) sum += grid.value(i, j, k) * tent[0][i] * tent[1][j] * tent[2][k];
     }
   }
   return sum;
@@ -123,7 +134,10 @@ Measured measure_value(const Run& run, bool clamped) {
         return place({{"cells in x", static_cast<double>(grid.n[0])}, {"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
       };
       m.add(std::fabs(found[0][i] - sum_of_tents(grid, {in[0][i], in[1][i], in[2][i]}, clamped)), where);
-      if (i < centres && grid.exact) m.add(std::fabs(found[0][i] - static_cast<double>(grid.table[3 + i])), where);
+      if (i < centres && grid.exact) {
+        const auto nx = static_cast<std::size_t>(grid.n[0]), ny = static_cast<std::size_t>(grid.n[1]);
+        m.add(std::fabs(found[0][i] - grid.value(i % nx, i / nx % ny, i / nx / ny)), where);
+      }
       if (i >= outside && !clamped) m.add(found[0][i] == 0 ? 0 : HUGE_VAL, where);
     }
   }

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "common/algorithms/field.h"
+#include "common/algorithms/medium.h"
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+// How much of each light comes through Gaussians and grid to the surface that each pixel shows; 1 where it shows none. The
+// homogeneous part is SurfaceShading's.
+struct LightMarch {
+  Image distance;  // r32f [m], 1e30 on a miss
+  Buffer voxels;   // as RayMarch's
+  std::vector<Light> lights;
+  std::vector<GaussianDensity> gaussians;
+  GridDensity grid;
+  View view;
+  int light_steps = 16;  // > 0
+  LightDepth light_depth = LightDepth::march;
+
+  Image light_transmittance;  // r32f, a layer a light, 0..1
+
+  static constexpr std::string_view name = "light_march";
+  static constexpr Domain domain = Domain::pixel;
+  template <class Self, class Visit>
+  static void fields(Self& s, Visit&& v) {
+    v(in("distance", "m"), s.distance);
+    v(in("voxels", "1/m"), s.voxels);
+    v(knob("lights"), s.lights);
+    v(knob("gaussians"), s.gaussians);
+    v(knob("grid"), s.grid);
+    v(knob("view"), s.view);
+    v(knob("light_steps"), s.light_steps);
+    v(knob("light_depth"), s.light_depth);
+    v(out("light_transmittance"), s.light_transmittance);
+  }
+};
+
+}  // namespace airlight

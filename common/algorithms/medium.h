@@ -1,0 +1,33 @@
+// What of the medium is not homogeneous, relative to the camera like everything in view.h.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+namespace airlight {
+
+// extinction * exp(-|x - center|^2 / radius^2) for |x - center| < reach; the rest is left out.
+struct GaussianDensity {
+  glm::vec3 center{0, 0, 0};    // [m]
+  float radius = 1;             // [m] > 0
+  float extinction = 0;         // [1/m] > 0
+  float reach = 0;              // [m]
+  glm::vec3 albedo{1, 1, 1};    // 0..1
+  glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] at the centre
+};
+
+// Where a voxel grid stands. Its extinctions are a buffer (common/plan/voxels.h). Row i of `cells` takes a place (x, y, z, 1) to
+// coordinate i in cells, 0 at the first centre; 0 cells: no grid.
+struct GridDensity {
+  glm::vec4 cells[3] = {};
+  glm::vec3 size{0, 0, 0};    // cells an axis
+  glm::vec3 albedo{1, 1, 1};  // 0..1
+
+  explicit operator bool() const { return size.x > 0; }
+};
+
+// How the light's way through Gaussians is attenuated: by marching it too, or by the closed form of each.
+enum class LightDepth : int { march, analytic };
+
+}  // namespace airlight

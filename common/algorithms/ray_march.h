@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "common/algorithms/field.h"
+#include "common/algorithms/medium.h"
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+// Marches each pixel's ray through the medium from front to back: transmittance, light of unshadowed lights scattered once,
+// ambient and emitted light. Where only the homogeneous part is, `steps` share its opacity; from where the ray enters Gaussians
+// and grid to where it leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is
+// empty costs nothing.
+struct RayMarch {
+  Image distance;  // r32f [m], 1e30 on a miss
+  Buffer voxels;   // extinctions of the grid (common/plan/voxels.h); with a grid
+  std::vector<Light> lights;
+  std::vector<GaussianDensity> gaussians;
+  GridDensity grid;
+  View view;
+  Phase phase;
+  float extinction = 0;         // [1/m] of the homogeneous part
+  float sky_distance = 1e30F;   // [m]; 1e30 and above stand for infinity
+  glm::vec3 albedo{1, 1, 1};    // of the homogeneous part, 0..1
+  glm::vec3 ambient{0, 0, 0};   // [W/m^2/sr] source radiance L_a
+  glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
+  int steps = 64;               // > 0
+  int light_steps = 16;         // > 0, of each sample's way to each light
+  LightDepth light_depth = LightDepth::march;
+
+  Image airlight;       // rgb32f
+  Image per_light;      // rgb32f, a layer a light, without ambient and emission; optional
+  Image transmittance;  // r32f, 0..1
+  Image optical_depth;  // r32f, optional; 1e30 where it is infinite
+
+  static constexpr std::string_view name = "ray_march";
+  static constexpr Domain domain = Domain::pixel;
+  template <class Self, class Visit>
+  static void fields(Self& s, Visit&& v) {
+    v(in("distance", "m"), s.distance);
+    v(in("voxels", "1/m"), s.voxels);
+    v(knob("lights"), s.lights);
+    v(knob("gaussians"), s.gaussians);
+    v(knob("grid"), s.grid);
+    v(knob("view"), s.view);
+    v(knob("phase"), s.phase);
+    v(knob("extinction", "1/m"), s.extinction);
+    v(knob("sky_distance", "m"), s.sky_distance);
+    v(knob("albedo"), s.albedo);
+    v(knob("ambient", "W/m^2/sr"), s.ambient);
+    v(knob("emission", "W/m^3/sr"), s.emission);
+    v(knob("steps"), s.steps);
+    v(knob("light_steps"), s.light_steps);
+    v(knob("light_depth"), s.light_depth);
+    v(out("airlight", "W/m^2/sr"), s.airlight);
+    v(out("per_light", "W/m^2/sr"), s.per_light);
+    v(out("transmittance"), s.transmittance);
+    v(out("optical_depth"), s.optical_depth);
+  }
+};
+
+}  // namespace airlight

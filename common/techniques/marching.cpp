@@ -1,0 +1,163 @@
+#include "common/techniques/marching.h"
+
+#include <algorithm>
+
+#include "common/plan/geometry.h"
+#include "common/plan/images.h"
+#include "common/plan/voxels.h"
+
+namespace airlight {
+
+namespace {
+
+std::optional<std::string> refuses(const Scene& scene) {
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
+  if (casters && !scene.lights.empty())
+    return "it has no shadows in this version, the scene has surfaces that cast them (casts_shadow)";
+  return std::nullopt;
+}
+
+Plan plan(const Scene& scene, const FrameRequest& request) {
+  enum : std::uint32_t { geometry_id = 1, voxels_id = 4, per_light_id = 5, light_transmittance_id = 6, first_image_id = 7 };
+  Plan plan;
+  const Medium& medium = scene.medium;
+  const View view = view_of(scene, request);
+  std::vector<std::size_t> light_index;
+  const std::vector<Light> lights = lights_of(scene, &light_index);
+  const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
+  const bool uneven = !gaussians.empty() || medium.grid;
+  const bool surfaces = !scene.surfaces.empty();
+  const bool dark = medium.empty();
+  const glm::vec3 ambient = dark ? glm::vec3(0) : glm::vec3(medium.ambient);
+  const auto extinction = static_cast<float>(medium.extinction);
+  // Knobs that this scene does not need are held, so that they make nothing stale.
+  const int light_steps = uneven ? static_cast<int>(request.knobs.number("light_steps")) : 1;
+  const LightDepth light_depth =
+      request.knobs.choice("shadow") == "march" && !gaussians.empty() ? LightDepth::march : LightDepth::analytic;
+
+  Images images(request, plan, first_image_id);
+  const Image distance = images.make("depth", Format::r32f);
+  const Image normal = images.make("normal", Format::rgb32f);
+  const Image material = images.make("material", Format::r32f);
+  const Image transmittance = images.make("transmittance", Format::r32f);
+  const Image optical_depth = images.optional("optical_depth", Format::r32f);
+  const Image surface = images.make("surface", Format::rgb32f);
+  const Image direct = images.optional("surface.direct", Format::rgb32f);
+  const Image surface_ambient = images.optional("surface.ambient", Format::rgb32f);
+  const Image airlight = images.make("airlight", Format::rgb32f);
+  const Image beauty = images.make("beauty", Format::rgb32f);
+  const Image per_light = per_light_images(scene, request, light_index, per_light_id, plan);
+
+  const Geometry geometry = geometry_of(scene, geometry_id);
+  plan.uploads.push_back(geometry.positions);
+  plan.uploads.push_back(geometry.normals);
+  plan.uploads.push_back(geometry.indices);
+  plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
+                                          .normals = geometry.normals.buffer,
+                                          .triangles = geometry.indices.buffer,
+                                          .view = view,
+                                          .distance = distance,
+                                          .normal = normal,
+                                          .material = material},
+                        "what each pixel sees"});
+  Buffer voxels;
+  GridDensity grid;
+  if (medium.grid) {
+    plan.uploads.push_back(voxels_of(*medium.grid, voxels_id));
+    voxels = plan.uploads.back().buffer;
+    grid = grid_density(*medium.grid, scene.camera.position);
+  }
+  plan.steps.push_back({RayMarch{.distance = distance,
+                                 .voxels = voxels,
+                                 .lights = lights,
+                                 .gaussians = gaussians,
+                                 .grid = grid,
+                                 .view = view,
+                                 .phase = medium.phase,
+                                 .extinction = extinction,
+                                 .sky_distance = static_cast<float>(std::min(scene.sky_distance, 1e30)),
+                                 .albedo = medium.albedo,
+                                 .ambient = ambient,
+                                 .emission = medium.emission,
+                                 .steps = static_cast<int>(request.knobs.number("steps")),
+                                 .light_steps = light_steps,
+                                 .light_depth = light_depth,
+                                 .airlight = airlight,
+                                 .per_light = per_light,
+                                 .transmittance = transmittance,
+                                 .optical_depth = optical_depth},
+                        "the view ray through the medium, step by step"});
+  Image light_transmittance;
+  if (uneven && surfaces && !lights.empty()) {
+    light_transmittance = {{light_transmittance_id}, Format::r32f, request.extent, static_cast<int>(lights.size()), false};
+    plan.steps.push_back({LightMarch{.distance = distance,
+                                     .voxels = voxels,
+                                     .lights = lights,
+                                     .gaussians = gaussians,
+                                     .grid = grid,
+                                     .view = view,
+                                     .light_steps = light_steps,
+                                     .light_depth = light_depth,
+                                     .light_transmittance = light_transmittance},
+                          "what of each light reaches the surfaces"});
+  }
+  plan.steps.push_back({SurfaceShading{.distance = distance,
+                                       .normal = normal,
+                                       .material = material,
+                                       .transmittance = transmittance,
+                                       .light_transmittance = light_transmittance,
+                                       .materials = materials_of(scene),
+                                       .lights = lights,
+                                       .view = view,
+                                       .extinction = extinction,
+                                       .ambient = ambient,
+                                       .background = scene.background,
+                                       .surface = surface,
+                                       .surface_direct = direct,
+                                       .surface_ambient = surface_ambient},
+                        "direct light on the surfaces, attenuated on both ways"});
+  plan.steps.push_back({Compose{.surface = surface, .airlight = airlight, .beauty = beauty}, "surface + airlight"});
+
+  // What this scene does not need.
+  if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
+  if (gaussians.size() < medium.gaussians.size()) plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
+  if (!uneven)
+    plan.skips.push_back({"marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
+  if (uneven && !surfaces) plan.skips.push_back({"light_march", "no surface"});
+  return plan;
+}
+
+}  // namespace
+
+Technique marching() {
+  Technique t;
+  t.name = "marching";
+  t.summary = "ray marching through any medium, without shadows of surfaces";
+  t.knobs = {{.name = "steps",
+              .kind = Knob::Kind::integer,
+              .standard = "32",
+              .least = 1,
+              .most = 4096,
+              .choices = {},
+              .meaning = "steps along the view ray in each stretch of medium",
+              .sweep = {"2", "4", "8", "16", "32", "64", "128", "256"}},
+             {.name = "light_steps",
+              .kind = Knob::Kind::integer,
+              .standard = "16",
+              .least = 1,
+              .most = 4096,
+              .choices = {},
+              .meaning = "steps from each sample to each light, through grids and, with shadow=march, Gaussians",
+              .sweep = {"4", "8", "16", "32", "64"}},
+             {.name = "shadow",
+              .kind = Knob::Kind::choice,
+              .standard = "analytic",
+              .choices = {"march", "analytic"},
+              .meaning = "how the light's way through Gaussians is attenuated",
+              .sweep = {"march", "analytic"}}};
+  t.refuses = refuses;
+  t.plan = plan;
+  return t;
+}
+
+}  // namespace airlight

@@ -1,0 +1,158 @@
+// Gaussians and grid for a vector of lanes: the extinction at a place and along a way. Included after cpu/simd.h and
+// cpu/pixel_rays.h, anew for every target.
+#if defined(AIRLIGHT_CPU_MEDIUM_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AIRLIGHT_CPU_MEDIUM_H
+#undef AIRLIGHT_CPU_MEDIUM_H
+#else
+#define AIRLIGHT_CPU_MEDIUM_H
+#endif
+
+#include "common/algorithms/medium.h"
+#include "common/plan/voxels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+struct Stretch {
+  Real begin, end;  // [m] along a way; empty where end <= begin
+};
+
+HWY_INLINE Real3 along(const Real3& from, const Real3& direction, Real t) {
+  return {fma(direction.x, t, from.x), fma(direction.y, t, from.y), fma(direction.z, t, from.z)};
+}
+
+HWY_INLINE Real3 to_center(const GaussianDensity& g, const Real3& p) {
+  return {g.center.x - p.x, g.center.y - p.y, g.center.z - p.z};
+}
+
+// Extinction [1/m].
+HWY_INLINE Real extinction_at(const GaussianDensity& g, const Real3& p) {
+  const Real3 e = to_center(g, p);
+  const Real squared = dot(e, e);
+  const Mask within = squared < g.reach * g.reach;
+  if (!any_lane(within)) return 0.0;
+  return select(within, gaussian_falloff(1 / g.radius, squared) * g.extinction, 0.0);
+}
+
+// A grid and its table.
+struct GridLookup {
+  const GridDensity* grid;
+  table values, bricks;
+
+  HWY_INLINE Real coordinate(int axis, const Real3& p) const {
+    const glm::vec4& row = grid->cells[axis];
+    return fma(row.x, p.x, fma(row.y, p.y, fma(row.z, p.z, row.w)));
+  }
+  HWY_INLINE Real extinction_at(const Real3& p) const {
+    const Real x = coordinate(0, p), y = coordinate(1, p), z = coordinate(2, p);
+    if (!any_lane(grid_bound(bricks, x, y, z, grid->size.x, grid->size.y, grid->size.z) > 0.0)) return 0.0;
+    return grid_extinction(values, x, y, z);
+  }
+  // Where a way meets the box with half a cell around it.
+  HWY_INLINE Stretch stretch(const Real3& from, const Real3& direction, Real length) const {
+    Stretch s{0.0, length};
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::vec4& row = grid->cells[axis];
+      const Real start = coordinate(axis, from);
+      const Real slope = fma(row.x, direction.x, fma(row.y, direction.y, row.z * direction.z));
+      const Real rate = select(abs(slope) > 1e-18, slope, 1e-18);
+      const Real a = (-1.0 - start) / rate, b = (grid->size[axis] - start) / rate;
+      s.begin = max(s.begin, min(a, b));
+      s.end = min(s.end, max(a, b));
+    }
+    return s;
+  }
+};
+
+// What light paths meet: everything but the homogeneous part.
+struct MediumLookup {
+  const std::vector<GaussianDensity>* gaussians;
+  GridLookup grid;
+  int light_steps;
+  LightDepth light_depth;
+
+  template <class Algorithm>
+  MediumLookup(const Algorithm& a, const TileView& view)
+      : gaussians(&a.gaussians), grid{&a.grid, nullptr, nullptr}, light_steps(a.light_steps), light_depth(a.light_depth) {
+    if (!a.grid) return;
+    grid.values = view.floats(a.voxels);
+    grid.bricks = grid.values + bricks_at(a.grid);
+  }
+  bool any() const { return !gaussians->empty() || *grid.grid; }
+};
+
+// From where a way enters the first Gaussian's reach to where it leaves the last.
+HWY_INLINE Stretch stretch_of(const std::vector<GaussianDensity>& gaussians, const Real3& from, const Real3& direction,
+                              Real length) {
+  Stretch all{1e30, -1e30};
+  for (const GaussianDensity& g : gaussians) {
+    const Real3 e = to_center(g, from);
+    Real foot, h;
+    perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
+    const Real half = sqrt(max((g.reach - h) * (g.reach + h), 0.0));
+    const Real begin = max(foot - half, 0.0), end = min(foot + half, length);
+    const Mask meets = (h < g.reach) && (begin < end);
+    all.begin = select(meets, min(all.begin, begin), all.begin);
+    all.end = select(meets, max(all.end, end), all.end);
+  }
+  return all;
+}
+
+// Optical depth of a way that begins at `from`. Lanes outside `on` may give anything.
+HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, const Real3& direction, Real length, Mask on) {
+  Real sum = 0.0;
+  const int n = medium.light_steps;
+  if (medium.light_depth == LightDepth::analytic) {
+    for (const GaussianDensity& g : *medium.gaussians) {
+      const Real3 e = to_center(g, from);
+      Real foot, h;
+      perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
+      const Mask meets = (h < g.reach) && (foot > -g.reach) && (foot - length < g.reach);
+      if (!any_lane(meets && on)) continue;
+      const float whole = g.extinction * g.radius * 1.77245385F;  // along the line through the centre: c radius sqrt(pi)
+      sum += select(meets, gaussian_depth(1 / g.radius, h, -foot, length - foot) * whole, 0.0);
+    }
+  } else if (!medium.gaussians->empty()) {
+    const Stretch s = stretch_of(*medium.gaussians, from, direction, length);
+    const Mask meets = s.begin < s.end;
+    if (any_lane(meets && on)) {
+      const Real step = select(meets, (s.end - s.begin) * (1.0F / static_cast<float>(n)), 0.0);
+      Real extinction = 0.0;
+      for (int k = 0; k < n; ++k) {
+        const Real3 p = along(from, direction, fma(step, static_cast<float>(k) + 0.5F, select(meets, s.begin, 0.0)));
+        for (const GaussianDensity& g : *medium.gaussians) extinction += extinction_at(g, p);
+      }
+      sum += extinction * step;
+    }
+  }
+  if (*medium.grid.grid) {
+    const Stretch s = medium.grid.stretch(from, direction, length);
+    const Mask meets = s.begin < s.end;
+    if (any_lane(meets && on)) {
+      const Real step = select(meets, (s.end - s.begin) * (1.0F / static_cast<float>(n)), 0.0);
+      Real extinction = 0.0;
+      for (int k = 0; k < n; ++k) {
+        const Real3 p = along(from, direction, fma(step, static_cast<float>(k) + 0.5F, select(meets, s.begin, 0.0)));
+        extinction += medium.grid.extinction_at(p);
+      }
+      sum += extinction * step;
+    }
+  }
+  return sum;
+}
+
+// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
+HWY_INLINE Real3 toward_light(const Light& light, const Real3& p, Real& length) {
+  if (light.directional) {
+    length = 1e15;
+    return real3(-light.vector);
+  }
+  const Real3 way{light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
+  length = sqrt(max(dot(way, way), 1e-37));
+  const Real scale = 1.0 / length;
+  return {way.x * scale, way.y * scale, way.z * scale};
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,212 @@
+#include "cpu/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/ray_march.cpp"
+#include <hwy/foreach_target.h>
+
+#include "cpu/simd.h"
+//
+#include "cpu/pixel_rays.h"
+//
+#include "cpu/medium.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+namespace {
+
+constexpr float deepest = 16;  // optical depth at which a ray ends: exp(-16) = 1e-7
+
+// What is at a place of the ray.
+struct Local {
+  Real extinction, scattering[3], emission[3];
+};
+
+// The rays of a vector of pixels on their way.
+struct March {
+  const RayMarch& a;
+  const TileView& view;
+  MediumLookup medium;
+  bool one_albedo, emits;
+
+  int i = 0;  // the first pixel
+  Real3 d;
+  Real front, within;  // optical depth so far, and that of Gaussians and grid alone
+  Mask going;
+  Real sum[3];
+
+  HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view);
+  HWY_INLINE void begin(int first, const Real3& direction);
+  HWY_INLINE void stretch(Real begin, Real end, bool all);
+  HWY_INLINE Local local(const Real3& p, bool all) const;
+  HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real tau, const Local& here);
+};
+
+HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view)
+    : a(algorithm), view(tile_view), medium(algorithm, tile_view), one_albedo(true), emits(algorithm.emission != glm::vec3(0)) {
+  for (const GaussianDensity& g : a.gaussians) {
+    one_albedo = one_albedo && g.albedo == a.albedo;
+    emits = emits || g.emission != glm::vec3(0);
+  }
+  if (a.grid) one_albedo = one_albedo && a.grid.albedo == a.albedo;
+}
+
+HWY_INLINE void March::begin(int first, const Real3& direction) {
+  i = first;
+  d = direction;
+  front = within = 0.0;
+  going = Real(0.0) < Real(1.0);
+  for (Real& s : sum) s = 0.0;
+  if (!a.per_light) return;
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
+  }
+}
+
+HWY_INLINE Local March::local(const Real3& p, bool all) const {
+  Local here;
+  here.extinction = a.extinction;
+  for (int c = 0; c < 3; ++c) {
+    here.scattering[c] = a.extinction * a.albedo[c];
+    here.emission[c] = a.emission[c];
+  }
+  if (!all) return here;
+  const auto add = [&](Real extinction, const glm::vec3& albedo) HWY_ATTR {
+    here.extinction += extinction;
+    if (one_albedo) return;
+    for (int c = 0; c < 3; ++c) here.scattering[c] = fma(extinction, albedo[c], here.scattering[c]);
+  };
+  for (const GaussianDensity& g : a.gaussians) {
+    const Real extinction = extinction_at(g, p);
+    add(extinction, g.albedo);
+    if (!emits) continue;
+    for (int c = 0; c < 3; ++c) here.emission[c] = fma(extinction, g.emission[c] / g.extinction, here.emission[c]);
+  }
+  if (a.grid) add(medium.grid.extinction_at(p), a.grid.albedo);
+  if (one_albedo) {
+    for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * a.albedo[c];
+  }
+  return here;
+}
+
+// Light number k, scattered in the step [from, to] of optical depth tau.
+HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, const Local& here) {
+  const Light& light = a.lights[k];
+  Real at, weight, beside = 0.0, mu;
+  if (light.directional) {
+    at = (from + to) * 0.5;
+    weight = to - from;
+    mu = -dot(real3(light.vector), d);
+  } else {
+    Real foot, h;
+    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    const Real before = from - foot, after = to - foot;
+    const Real ra = sqrt(fma(before, before, h * h)), rb = sqrt(fma(after, after, h * h));
+    weight = step_angle(from, to, ra, rb, foot, h);
+    Real r;
+    step_means(from, to, ra, rb, foot, h, weight, at, r);
+    const Real past = at - foot;
+    mu = -past / sqrt(fma(past, past, h * h));
+    beside = r * a.extinction;
+  }
+  if (medium.any()) {
+    const Real3 p = along({0.0, 0.0, 0.0}, d, at);
+    Real length;
+    const Real3 way = toward_light(light, p, length);
+    beside += depth_of_way(medium, p, way, length, going);
+  }
+  const Real share = (at - from) / max(to - from, 1e-30);
+  const Real once = phase_value(static_cast<int>(a.phase.kind), static_cast<float>(a.phase.g), mu) * weight *
+                    step_transmittance(front, tau, share, beside);
+  for (int c = 0; c < 3; ++c) {
+    const Real light_of_step = select(going, here.scattering[c] * once * light.power[c], 0.0);
+    sum[c] += light_of_step;
+    if (!a.per_light) continue;
+    float* plane = view.plane(a.per_light, c, static_cast<int>(k)) + i;
+    store(load(plane) + light_of_step, plane);
+  }
+}
+
+// From `begin` to `end` in a.steps; all: with Gaussians and grid. Rays for which end <= begin stand still.
+HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
+  const Mask alive = front < deepest, marching = alive && (begin < end);
+  if (!any_lane(marching)) return;
+  if (!all && !(a.extinction > 0)) {  // nothing there but a glow
+    const Real glow = select(marching, (end - begin) * transmittance(front), 0.0);
+    for (int c = 0; c < 3; ++c) sum[c] = fma(glow, a.emission[c], sum[c]);
+    return;
+  }
+  const bool whole = static_cast<bool>(a.optical_depth);  // it is wanted also behind where the ray ends
+  const Real length = select(marching, all ? end - begin : min(end - begin, deepest / max(a.extinction, 1e-30F)), 0.0);
+  const float n = static_cast<float>(a.steps);
+  Real from = begin;
+  for (int k = 0; k < a.steps; ++k) {
+    going = marching && (front < deepest);
+    if (!any_lane(going) && !(whole && all)) break;
+    const float next = static_cast<float>(k + 1);
+    const Real to = begin + (all ? length * (next / n) : opaque_step(next, n, length, a.extinction));
+    const Real size = max(to - from, 0.0);
+    const Local here = local(along({0.0, 0.0, 0.0}, d, (from + to) * 0.5), all);
+    const Real tau = here.extinction * size;
+    if (any_lane(going && (here.extinction > 0.0))) {
+      for (std::size_t l = 0; l < a.lights.size(); ++l) add_light(l, from, to, tau, here);
+    }
+    if (emits) {
+      const Real seen = select(going, size * mean_transmittance(tau) * transmittance(front), 0.0);
+      for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
+    }
+    const Mask counts = going || (whole ? marching : going);
+    front += select(counts, tau, 0.0);
+    if (all) within += select(counts, max(here.extinction - a.extinction, 0.0) * size, 0.0);
+    from = to;
+  }
+  going = marching && (front < deepest);
+}
+
+}  // namespace
+
+static void ray_march(const RayMarch& a, const TileView& view) {
+  const float* distance = view.plane(a.distance);
+  March march(a, view);
+  for (int i = 0; i < tile_pixels; i += lanes) {
+    const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
+    march.begin(i, pixel_rays(a.view, view.tile, i));
+    Real behind = 0.0;  // of Gaussians and grid
+    if (march.medium.any()) {
+      const Real3 camera{0.0, 0.0, 0.0};
+      Stretch inside = stretch_of(a.gaussians, camera, march.d, end);
+      if (a.grid) {
+        const Stretch box = march.medium.grid.stretch(camera, march.d, end);
+        const Mask meets = box.begin < box.end;
+        inside.begin = select(meets, min(inside.begin, box.begin), inside.begin);
+        inside.end = select(meets, max(inside.end, box.end), inside.end);
+      }
+      const Mask meets = inside.begin < inside.end;
+      inside.begin = select(meets, inside.begin, 0.0);
+      behind = select(meets, inside.end, 0.0);
+      march.stretch(0.0, inside.begin, false);
+      march.stretch(inside.begin, behind, true);
+    }
+    march.stretch(behind, end, false);
+
+    const Real tau = optical_depth(length, a.extinction) + march.within;
+    const Real through = select(march.front < deepest, transmittance(tau), 0.0);
+    const Real source = opacity(tau);
+    for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], march.sum[c]), view.plane(a.airlight, c) + i);
+    store(through, view.plane(a.transmittance) + i);
+    if (a.optical_depth) store(min(tau, 1e30), view.plane(a.optical_depth) + i);
+  }
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace airlight {
+
+HWY_EXPORT(ray_march);
+
+void run_tile(const RayMarch& a, const TileView& view, Simd simd) { entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view); }
+
+}  // namespace airlight
+#endif

@@ -1,0 +1,23 @@
+#include <algorithm>
+
+#include "gpu/medium.h"
+
+namespace airlight {
+
+void run(const LightMarch& a, StepRunner& r, const Progress& progress) {
+  std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
+  defines.push_back(r.lights(a.lights));
+  Program& program = r.compute("gpu/light_march.glsl", defines);
+  r.read(0, a.distance);
+  r.write(0, a.light_transmittance);
+  r.view(a.view);
+  const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, a.lights.size());
+  const int all = static_cast<int>(a.lights.size());
+  for (int first = 0; first < all; first += budget.lights) {
+    program.set("first_light", first);
+    program.set("end_light", std::min(first + budget.lights, all));
+    r.each_pixel(program, a.light_transmittance.extent, progress);
+  }
+}
+
+}  // namespace airlight

@@ -1,0 +1,25 @@
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+#include "gpu/medium.glsl"
+
+layout(binding = 0) uniform sampler2DArray distance_image;
+layout(binding = 0, r32f) uniform writeonly image2DArray light_transmittance_image;
+
+uniform int first_light;  // of this dispatch
+uniform int end_light;
+
+void main() {
+  ivec2 p = this_pixel();
+  if (outside(p)) return;
+  float depth = texelFetch(distance_image, ivec3(p, 0), 0).x;
+  vec3 place = pixel_ray(p) * depth;
+  for (int k = first_light; k < end_light; ++k) {
+    float through = 1.0;
+    if (depth < 1e30) {
+      float length;
+      vec3 way = toward_light(light_values[2 * k].xyz, light_values[2 * k + 1].w != 0.0, place, length);
+      through = transmittance(depth_of_way(place, way, length));
+    }
+    imageStore(light_transmittance_image, ivec3(p, k), vec4(through));
+  }
+}

@@ -1,0 +1,124 @@
+// Gaussians and grid: the extinction at a place and along a way. After gpu/dialect.glsl and gpu/screen.glsl.
+
+layout(std140, binding = 3) uniform MediumBlock {
+  ivec4 medium_counts;  // Gaussians, steps to a light, where the bricks begin
+  vec4 grid_cells[3];
+  vec4 grid_size;
+  vec4 grid_albedo;
+#ifndef MANY_GAUSSIANS
+  vec4 gaussian_values[384];
+#endif
+};
+#ifdef MANY_GAUSSIANS
+layout(std430, binding = 5) readonly buffer GaussianBuffer { vec4 gaussian_values[]; };
+#endif
+
+// Three vectors a Gaussian: centre and radius; albedo and extinction; emission and reach.
+vec4 center_radius(int g) { return gaussian_values[3 * g]; }
+vec4 albedo_extinction_of(int g) { return gaussian_values[3 * g + 1]; }
+vec4 emission_reach(int g) { return gaussian_values[3 * g + 2]; }
+
+float gaussian_extinction(int g, vec3 p) {
+  vec3 e = center_radius(g).xyz - p;
+  float squared = dot3(e, e);
+  float reach = emission_reach(g).w;
+  if (squared >= reach * reach) return 0.0;
+  return gaussian_falloff(1.0 / center_radius(g).w, squared) * albedo_extinction_of(g).w;
+}
+
+float grid_coordinate_of(int axis, vec3 p) {
+  vec4 row = grid_cells[axis];
+  return fma(row.x, p.x, fma(row.y, p.y, fma(row.z, p.z, row.w)));
+}
+
+float grid_extinction_at(vec3 p) {
+  float x = grid_coordinate_of(0, p);
+  float y = grid_coordinate_of(1, p);
+  float z = grid_coordinate_of(2, p);
+  if (grid_bound(medium_counts.z, x, y, z, grid_size.x, grid_size.y, grid_size.z) <= 0.0) return 0.0;
+  return grid_extinction(0, x, y, z);
+}
+
+// Stretches are [begin, end] along a way, empty where end <= begin.
+vec2 grid_stretch(vec3 from, vec3 direction, float length) {
+  vec2 s = vec2(0.0, length);
+  for (int axis = 0; axis < 3; ++axis) {
+    vec4 row = grid_cells[axis];
+    float start = grid_coordinate_of(axis, from);
+    float slope = fma(row.x, direction.x, fma(row.y, direction.y, row.z * direction.z));
+    float rate = abs(slope) > 1e-18 ? slope : 1e-18;
+    float a = (-1.0 - start) / rate;
+    float b = (grid_size[axis] - start) / rate;
+    s = vec2(max(s.x, min(a, b)), min(s.y, max(a, b)));
+  }
+  return s;
+}
+
+vec2 gaussian_stretch(vec3 from, vec3 direction, float length) {
+  vec2 all = vec2(1e30, -1e30);
+  for (int g = 0; g < medium_counts.x; ++g) {
+    vec3 e = center_radius(g).xyz - from;
+    float reach = emission_reach(g).w;
+    float foot;
+    float h;
+    perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
+    float chord = sqrt(max((reach - h) * (reach + h), 0.0));
+    float begin = max(foot - chord, 0.0);
+    float end = min(foot + chord, length);
+    if (h < reach && begin < end) all = vec2(min(all.x, begin), max(all.y, end));
+  }
+  return all;
+}
+
+// Optical depth of a way through Gaussians and grid.
+float depth_of_way(vec3 from, vec3 direction, float length) {
+  float sum = 0.0;
+  int n = medium_counts.y;
+#ifdef WITH_GAUSSIANS
+#ifdef ANALYTIC_LIGHT_DEPTH
+  for (int g = 0; g < medium_counts.x; ++g) {
+    vec3 e = center_radius(g).xyz - from;
+    float reach = emission_reach(g).w;
+    float foot;
+    float h;
+    perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
+    if (h >= reach || foot <= -reach || foot - length >= reach) continue;
+    float radius = center_radius(g).w;
+    float whole = albedo_extinction_of(g).w * radius * 1.77245385;  // along the line through the centre: c radius sqrt(pi)
+    sum += gaussian_depth(1.0 / radius, h, -foot, length - foot) * whole;
+  }
+#else
+  vec2 s = gaussian_stretch(from, direction, length);
+  if (s.x < s.y) {
+    float size = (s.y - s.x) * (1.0 / float(n));
+    float extinction = 0.0;
+    for (int k = 0; k < n; ++k) {
+      vec3 p = fma(direction, vec3(fma(size, float(k) + 0.5, s.x)), from);
+      for (int g = 0; g < medium_counts.x; ++g) extinction += gaussian_extinction(g, p);
+    }
+    sum += extinction * size;
+  }
+#endif
+#endif
+#ifdef WITH_GRID
+  vec2 box = grid_stretch(from, direction, length);
+  if (box.x < box.y) {
+    float size = (box.y - box.x) * (1.0 / float(n));
+    float extinction = 0.0;
+    for (int k = 0; k < n; ++k) {
+      extinction += grid_extinction_at(fma(direction, vec3(fma(size, float(k) + 0.5, box.x)), from));
+    }
+    sum += extinction * size;
+  }
+#endif
+  return sum;
+}
+
+// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
+vec3 toward_light(vec3 vector, bool directional, vec3 p, out float length) {
+  length = 1e15;
+  if (directional) return -vector;
+  vec3 way = vector - p;
+  length = sqrt(max(dot3(way, way), 1e-37));
+  return way * (1.0 / length);
+}

@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <glm/vec4.hpp>
+
+#include "gpu/medium.h"
+
+namespace airlight {
+
+void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
+  std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
+  defines.push_back(r.lights(a.lights));
+  if (a.per_light) defines.push_back("WITH_PER_LIGHT");
+  if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
+  Program& program = r.compute("gpu/ray_march.glsl", defines);
+  r.read(0, a.distance);
+  r.read_write(0, a.airlight);
+  r.read_write(1, a.per_light);
+  r.read_write(2, a.transmittance);
+  r.write(3, a.optical_depth);
+  r.view(a.view);
+  struct {
+    glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
+    int phase_kind, steps, unused[2];
+  } const knobs{{a.albedo, a.extinction},
+                {a.ambient, a.sky_distance},
+                {a.emission, static_cast<float>(a.phase.g)},
+                static_cast<int>(a.phase.kind),
+                a.steps,
+                {}};
+  r.block(knobs_binding, knobs);
+
+  const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, a.lights.size());
+  const int all_steps = 3 * a.steps, all_lights = static_cast<int>(a.lights.size());
+  const std::int64_t a_step = 2 + static_cast<std::int64_t>(a.gaussians.size()) + budget.a_light * budget.lights;
+  const int steps = static_cast<int>(std::clamp<std::int64_t>(LoopBudget::most / a_step, 1, all_steps));
+  int first_light = 0;
+  do {
+    const int end_light = std::min(first_light + budget.lights, all_lights);
+    program.set("first_light", first_light);
+    program.set("end_light", end_light);
+    program.set("last_light", end_light == all_lights ? 1 : 0);
+    for (int first = 0; first < all_steps; first += steps) {
+      program.set("first_step", first);
+      program.set("end_step", std::min(first + steps, all_steps));
+      r.each_pixel(program, a.airlight.extent, progress);
+    }
+    first_light = end_light;
+  } while (first_light < all_lights);
+}
+
+}  // namespace airlight

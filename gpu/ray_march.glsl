@@ -1,0 +1,190 @@
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+#include "gpu/medium.glsl"
+
+layout(binding = 0) uniform sampler2DArray distance_image;
+layout(binding = 0, rgba32f) uniform image2DArray airlight_image;
+layout(binding = 1, rgba32f) uniform image2DArray per_light_image;
+layout(binding = 2, r32f) uniform image2DArray transmittance_image;
+layout(binding = 3, r32f) uniform writeonly image2DArray optical_depth_image;
+
+layout(std140, binding = 2) uniform Knobs {
+  vec4 albedo_extinction;
+  vec4 ambient_sky_distance;
+  vec4 emission_g;
+  int phase_kind;
+  int steps;
+};
+
+// One dispatch takes some of the steps, counted over the three stretches of a ray, and some of the lights. Between dispatches the airlight image holds
+// what is summed and the depth in front, the transmittance image that within Gaussians and grid.
+uniform int first_step;
+uniform int end_step;
+uniform int first_light;
+uniform int end_light;
+uniform int last_light;  // 1: no lights come after these
+
+const float deepest = 16.0;  // optical depth at which a ray ends: exp(-16) = 1e-7
+
+#ifdef WITH_OPTICAL_DEPTH
+const bool whole = true;  // it is wanted also behind where the ray ends
+#else
+const bool whole = false;
+#endif
+
+// The ray on its way.
+ivec2 pixel;
+vec3 d;
+float front = 0.0;   // optical depth so far
+float within = 0.0;  // that of Gaussians and grid alone
+bool going;
+vec3 sum = vec3(0.0);
+
+// What is at a place of the ray.
+struct Local {
+  float extinction;
+  vec3 scattering;
+  vec3 emission;
+};
+
+Local local_at(vec3 p, bool all) {
+  Local here = Local(albedo_extinction.w, albedo_extinction.xyz * albedo_extinction.w, emission_g.xyz);
+  if (!all) return here;
+#ifdef WITH_GAUSSIANS
+  for (int g = 0; g < medium_counts.x; ++g) {
+    float extinction = gaussian_extinction(g, p);
+    here.extinction += extinction;
+    here.scattering += extinction * albedo_extinction_of(g).xyz;
+    here.emission += extinction * (emission_reach(g).xyz / albedo_extinction_of(g).w);
+  }
+#endif
+#ifdef WITH_GRID
+  float extinction = grid_extinction_at(p);
+  here.extinction += extinction;
+  here.scattering += extinction * grid_albedo.xyz;
+#endif
+  return here;
+}
+
+// Light number k, scattered in the step [from, to] of optical depth tau.
+void add_light(int k, float from, float to, float tau, Local here) {
+  vec4 vector_radius = light_values[2 * k];
+  vec4 power_directional = light_values[2 * k + 1];
+  vec3 v = vector_radius.xyz;
+  float at = (from + to) * 0.5;
+  float weight = to - from;
+  float beside = 0.0;
+  float mu = -dot3(v, d);
+  if (power_directional.w == 0.0) {
+    float foot;
+    float h;
+    perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+    float before = from - foot;
+    float after = to - foot;
+    float ra = sqrt(fma(before, before, h * h));
+    float rb = sqrt(fma(after, after, h * h));
+    weight = step_angle(from, to, ra, rb, foot, h);
+    float r;
+    step_means(from, to, ra, rb, foot, h, weight, at, r);
+    float past = at - foot;
+    mu = -past / sqrt(fma(past, past, h * h));
+    beside = r * albedo_extinction.w;
+  }
+#if defined(WITH_GAUSSIANS) || defined(WITH_GRID)
+  vec3 p = d * at;
+  float length;
+  vec3 way = toward_light(v, power_directional.w != 0.0, p, length);
+  beside += depth_of_way(p, way, length);
+#endif
+  float share = (at - from) / max(to - from, 1e-30);
+  float once = phase_value(phase_kind, emission_g.w, mu) * weight * step_transmittance(front, tau, share, beside);
+  vec3 light_of_step = here.scattering * once * power_directional.xyz;
+  sum += light_of_step;
+#ifdef WITH_PER_LIGHT
+  ivec3 layer = ivec3(pixel, k);
+  imageStore(per_light_image, layer, imageLoad(per_light_image, layer) + vec4(light_of_step, 0.0));
+#endif
+}
+
+// From `begin` to `end`, the steps from number `base` on; all: with Gaussians and grid. Nothing where end <= begin.
+void stretch(int base, float begin, float end, bool all) {
+  bool marching = front < deepest && begin < end;
+  if (!marching) return;
+  float extinction = albedo_extinction.w;
+  if (!all && extinction <= 0.0) {  // nothing there but a glow
+    if (first_light == 0 && first_step <= base && base < end_step) sum += (end - begin) * transmittance(front) * emission_g.xyz;
+    return;
+  }
+  float length = all ? end - begin : min(end - begin, deepest / max(extinction, 1e-30));
+  float n = float(steps);
+  int first = max(first_step - base, 0);
+  int last = min(end_step - base, steps);
+  float before = float(first);
+  float from = begin + (all ? length * (before / n) : opaque_step(before, n, length, extinction));
+  for (int k = first; k < last; ++k) {
+    going = front < deepest;
+    if (!going && !(whole && all)) break;
+    float next = float(k + 1);
+    float to = begin + (all ? length * (next / n) : opaque_step(next, n, length, extinction));
+    float size = max(to - from, 0.0);
+    Local here = local_at(d * ((from + to) * 0.5), all);
+    float tau = here.extinction * size;
+    if (going) {
+      if (here.extinction > 0.0) {
+        for (int l = first_light; l < end_light; ++l) add_light(l, from, to, tau, here);
+      }
+      if (first_light == 0) sum += size * mean_transmittance(tau) * transmittance(front) * here.emission;
+    }
+    front += tau;
+    if (all) within += max(here.extinction - extinction, 0.0) * size;
+    from = to;
+  }
+}
+
+void main() {
+  pixel = this_pixel();
+  if (outside(pixel)) return;
+  ivec3 at = ivec3(pixel, 0);
+  float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
+  float end = min(length, 1e15);
+  d = pixel_ray(pixel);
+  if (first_step > 0 || first_light > 0) sum = imageLoad(airlight_image, at).xyz;
+  if (first_step > 0) {
+    front = imageLoad(airlight_image, at).w;
+    within = imageLoad(transmittance_image, at).x;
+  }
+#ifdef WITH_PER_LIGHT
+  if (first_step == 0) {
+    for (int k = first_light; k < end_light; ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
+  }
+#endif
+  float behind = 0.0;  // of Gaussians and grid
+#if defined(WITH_GAUSSIANS) || defined(WITH_GRID)
+  vec2 inside = vec2(1e30, -1e30);
+#ifdef WITH_GAUSSIANS
+  inside = gaussian_stretch(vec3(0.0), d, end);
+#endif
+#ifdef WITH_GRID
+  vec2 box = grid_stretch(vec3(0.0), d, end);
+  if (box.x < box.y) inside = vec2(min(inside.x, box.x), max(inside.y, box.y));
+#endif
+  if (inside.x < inside.y) {
+    stretch(0, 0.0, inside.x, false);
+    stretch(steps, inside.x, inside.y, true);
+    behind = inside.y;
+  }
+#endif
+  stretch(2 * steps, behind, end, false);
+  if (end_step < 3 * steps || last_light == 0) {
+    imageStore(airlight_image, at, vec4(sum, front));
+    imageStore(transmittance_image, at, vec4(within));
+    return;
+  }
+
+  float tau = optical_depth(length, albedo_extinction.w) + within;
+  imageStore(airlight_image, at, vec4(fma(vec3(opacity(tau)), ambient_sky_distance.xyz, sum), 0.0));
+  imageStore(transmittance_image, at, vec4(front < deepest ? transmittance(tau) : 0.0));
+#ifdef WITH_OPTICAL_DEPTH
+  imageStore(optical_depth_image, at, vec4(min(tau, 1e30)));
+#endif
+}

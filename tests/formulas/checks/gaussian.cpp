@@ -1,0 +1,80 @@
+// Gaussians along a ray, against the table of their line integrals and the C library.
+#include <algorithm>
+#include <numbers>
+
+#include "tests/csv.h"
+#include "tests/formulas/checks/random.h"
+#include "tests/formulas/rows.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr std::uint32_t stream = 150;
+
+// Beside the whole line through the centre, c sqrt(pi) / a.
+Measured measure_table(const Run& run) {
+  Columns in;
+  std::vector<double> truth;
+  for (const auto& row : csv_rows("reference/gaussian_line_integral.csv")) {
+    const double a = number(row[0]), c = number(row[1]), h = number(row[2]), center = number(row[3]), d = number(row[4]);
+    add_call(in, a, h, -center, d - center);
+    truth.push_back(number(row[5]) / (c * std::sqrt(std::numbers::pi) / a));
+  }
+  const Columns found = run({Formula::gaussian_depth, in});
+  Measured m;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    m.add(std::fabs(found[0][i] - truth[i]), [&] {
+      return place({{"a", in[0][i]}, {"h", in[1][i]}, {"from", in[2][i]}, {"to", in[3][i]}});
+    });
+  }
+  return m;
+}
+
+// From the camera's side to infinity, through the centre and far from it, lengths from a micrometre to a megametre.
+Measured measure_depth(const Run& run) {
+  Random random(stream);
+  Columns in;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = random.magnitude(1e-6, 1e6), from = random.number(-6, 6) * radius;
+    const double to = i % 10 == 0 ? 1e30 : from + random.magnitude(1e-3, 10) * radius;
+    add_call(in, 1 / radius, random.number(0, 5) * radius, from, to);
+  }
+  const Columns found = run({Formula::gaussian_depth, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double a = in[0][i], h = a * in[1][i];
+    const double truth = 0.5 * std::exp(-h * h) * (std::erf(a * in[3][i]) - std::erf(a * in[2][i]));
+    m.add(std::fabs(found[0][i] - truth), [&] {
+      return place({{"a", a}, {"h", in[1][i]}, {"from", in[2][i]}, {"to", in[3][i]}});
+    });
+  }
+  return m;
+}
+
+Measured measure_falloff(const Run& run) {
+  Random random(stream + 1);
+  Columns in;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = random.magnitude(1e-6, 1e6);
+    const double distance = random.number(0, 12) * radius;
+    add_call(in, 1 / radius, distance * distance);
+  }
+  const Columns found = run({Formula::gaussian_falloff, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double truth = std::exp(-std::min(in[0][i] * in[0][i] * in[1][i], 60.0));
+    m.add(std::fabs(found[0][i] - truth), [&] { return place({{"a", in[0][i]}, {"squared distance", in[1][i]}}); });
+  }
+  return m;
+}
+
+}  // namespace
+
+void add_gaussian_checks(std::vector<Check>& checks) {
+  checks.push_back({"gaussian_table", measure_table, "gaussian_table", "gaussian_depth"});
+  checks.push_back({"gaussian_depth", measure_depth, "exact_double", "gaussian_depth"});
+  checks.push_back({"gaussian_falloff", measure_falloff, "exact_double", "gaussian_depth"});
+}
+
+}  // namespace airlight

@@ -1,0 +1,118 @@
+// Steps along a ray, against closed forms in double.
+#include <algorithm>
+
+#include "tests/formulas/checks/random.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr std::uint32_t stream = 160;
+
+// Steps begin at 0, end at the length and share the opacity equally; in the opacity, beside that of the whole.
+Measured measure_opaque_step(const Run& run) {
+  Random random(stream);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    const double n = std::floor(random.magnitude(1, 1024)), tau = random.magnitude(1e-6, 16), k = random.magnitude(1e-4, 1e2);
+    const double which = i % 8 == 0 ? 0 : i % 8 == 1 ? n : std::floor(random.number(0, n));
+    add_call(in, which, n, tau / k, k);
+  }
+  const Columns found = run({Formula::opaque_step, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double share = in[0][i] / in[1][i], length = in[2][i], k = in[3][i], all = -std::expm1(-k * length);
+    const double even = length * share;
+    // In a thin medium the steps are of equal length, which shares the opacity to 1 %.
+    const double error =
+        k * length < 0.02 ? std::fabs(found[0][i] - even) / length : std::fabs(-std::expm1(-k * found[0][i]) - share * all) / all;
+    const bool ends = (share > 0 || found[0][i] == 0) && (share < 1 || found[0][i] == length) && found[0][i] <= length;
+    m.add(ends ? error : HUGE_VAL, [&] {
+      return place({{"k", in[0][i]}, {"n", in[1][i]}, {"length", length}, {"extinction", k}});
+    });
+  }
+  return m;
+}
+
+Columns steps_beside_lights() {
+  Random random(stream + 1);
+  Columns in;
+  for (int i = 0; i < 40000; ++i) {
+    const double h = random.magnitude(1e-3, 1e3), foot = random.number(-5, 20), a = random.number(0, 20);
+    add_call(in, a, a + random.magnitude(1e-2, 1e3), foot, h);
+  }
+  return in;
+}
+
+// The angle over h relative to itself and to half a turn over h: a light that nearly touches the ray is seen in half a turn.
+Measured measure_angle(const Run& run) {
+  const Columns in = steps_beside_lights(), found = run({Formula::step_of_light, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double a = in[0][i] - in[2][i], b = in[1][i] - in[2][i], h = in[3][i];
+    const double truth = std::atan2(h * (b - a), h * h + a * b);
+    m.add(std::fabs(found[0][i] * h - truth) / (truth + 0.01 * 3.14159265358979), [&] {
+      return place({{"a", in[0][i]}, {"b", in[1][i]}, {"foot", in[2][i]}, {"h", h}});
+    });
+  }
+  return m;
+}
+
+// The means, by quadrature, beside the step or 1e-3 of the places it is made of.
+Measured measure_means(const Run& run, bool of_distance) {
+  const Columns in = steps_beside_lights(), found = run({Formula::step_of_light, in});
+  constexpr int nodes = 2000;
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); i += 16) {
+    const double a = in[0][i] - in[2][i], b = in[1][i] - in[2][i], h = in[3][i];
+    // With x = h sinh(s), dt / r^2 = ds / r: smooth however near the light is. Simpson's rule.
+    const double s0 = std::asinh(a / h), s1 = std::asinh(b / h), size = (s1 - s0) / nodes;
+    double weight = 0, place_sum = 0, distance_sum = 0;
+    for (int k = 0; k <= nodes; ++k) {
+      const double s = s0 + k * size, w = (k == 0 || k == nodes ? 1 : k % 2 == 1 ? 4 : 2) / std::cosh(s);
+      weight += w;
+      place_sum += w * h * std::sinh(s);
+      distance_sum += w * h * std::cosh(s);
+    }
+    const double truth = of_distance ? distance_sum / weight : in[2][i] + place_sum / weight;
+    const double scale = std::max(b - a, 1e-3 * (std::fabs(in[2][i]) + std::fabs(in[1][i])));
+    m.add(std::fabs(found[of_distance ? 2 : 1][i] - truth) / scale, [&] {
+      return place({{"a", in[0][i]}, {"b", in[1][i]}, {"foot", in[2][i]}, {"h", h}});
+    });
+  }
+  return m;
+}
+
+// At the step's middle it is the mean of exp(-t) over the step, whatever its depth.
+Measured measure_transmittance(const Run& run) {
+  Random random(stream + 2);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    add_call(in, random.number(0, 5), random.magnitude(1e-6, 20), i % 2 == 0 ? 0.5 : random.number(0.3, 0.7),
+             random.number(0, 5));
+  }
+  const Columns found = run({Formula::step_transmittance, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double front = in[0][i], tau = in[1][i], u = in[2][i], beside = in[3][i];
+    const double mean = -std::expm1(-tau) / tau;
+    const double truth =
+        u == 0.5 ? std::exp(-front - beside) * mean : std::exp(-std::max(front + tau * (u - 0.5) + beside, 0.0)) * mean;
+    m.add(std::fabs(found[0][i] / truth - 1) / (1 + front + tau + beside), [&] {
+      return place({{"front", front}, {"tau", tau}, {"share", u}, {"beside", beside}});
+    });
+  }
+  return m;
+}
+
+}  // namespace
+
+void add_marching_checks(std::vector<Check>& checks) {
+  checks.push_back({"opaque_step", measure_opaque_step, "opacity_double", "opaque_step"});
+  checks.push_back({"step_angle", measure_angle, "geometry_double", "step_angle"});
+  checks.push_back({"step_mean_place", [](const Run& run) { return measure_means(run, false); }, "step_means", "step_means"});
+  checks.push_back({"step_mean_distance", [](const Run& run) { return measure_means(run, true); }, "step_means", "step_means"});
+  checks.push_back({"step_transmittance", measure_transmittance, "opacity_double", "opacity"});
+}
+
+}  // namespace airlight

@@ -1,0 +1,49 @@
+#include "tests/parity/medium.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+
+#include "common/plan/geometry.h"
+#include "common/plan/voxels.h"
+#include "tests/parity/inputs.h"
+
+namespace airlight {
+
+std::vector<GaussianDensity> test_gaussians(int count) {
+  Scene scene;
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::uint32_t>(i);
+    const auto number = [&](std::uint32_t which, double from, double to) {
+      return from + (to - from) * uniform(170, 8 * k + which);
+    };
+    Gaussian g;
+    g.center = {number(0, -2.5, 2.5), number(1, -1.2, 1.5), number(2, -8, -3)};
+    g.radius = number(3, 0.15, 1.1);
+    g.extinction = number(4, 0.2, 2.5);
+    g.albedo = {0.9, number(5, 0.4, 1), number(6, 0.4, 1)};
+    if (i == 1) g.emission = {0.2, 0.1, 0};
+    scene.medium.gaussians.push_back(g);
+  }
+  return gaussians_of(scene);
+}
+
+void add_test_grid(TestMedium& medium, Case& c, std::uint32_t id) {
+  auto voxels = std::make_shared<VoxelGrid>();
+  voxels->size = {12, 9, 14};
+  const int cells = voxels->size.x * voxels->size.y * voxels->size.z;
+  for (int i = 0; i < cells; ++i) {
+    const bool empty = i % voxels->size.x < 4;
+    voxels->values.push_back(empty ? 0.0F : static_cast<float>(uniform(171, static_cast<std::uint32_t>(i))));
+  }
+  GridMedium grid{.voxels = voxels, .scale = 1.5, .albedo = {0.7, 0.8, 0.9}};
+  grid.transform = glm::translate(glm::dmat4(1), {-0.6, -1.2, -6.5}) * glm::rotate(glm::dmat4(1), 0.5, {0.3, 1, 0.2}) *
+                   glm::scale(glm::dmat4(1), {0.2, 0.25, 0.15});
+  medium.grid = grid_density(grid, {0, 0, 0});
+  const std::vector<float> table = voxel_table(grid);
+  const auto bytes = std::as_bytes(std::span(table));
+  medium.voxels = {{id}, bytes.size()};
+  c.buffers.emplace_back(medium.voxels, std::vector<std::byte>(bytes.begin(), bytes.end()));
+}
+
+}  // namespace airlight

@@ -1,0 +1,24 @@
+// Gaussians and a grid for the parity cases.
+#pragma once
+
+#include <vector>
+
+#include "common/algorithms/medium.h"
+#include "tests/parity/case.h"
+
+namespace airlight {
+
+// What uneven medium a case has.
+struct TestMedium {
+  std::vector<GaussianDensity> gaussians;
+  GridDensity grid;
+  Buffer voxels;
+};
+
+// `count` Gaussians around the sphere of sphere_on_plane(), of several albedos, one of which glows.
+std::vector<GaussianDensity> test_gaussians(int count);
+
+// A turned box of 12 x 9 x 14 cells beside it, a third of which are empty; its table becomes buffer `id` of the case.
+void add_test_grid(TestMedium&, Case&, std::uint32_t id);
+
+}  // namespace airlight
