@@ -1,5 +1,7 @@
 #include "cpu/kernels.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/ray_march.cpp"
 #include <hwy/foreach_target.h>
@@ -15,7 +17,10 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-constexpr float deepest = 16;  // optical depth at which a ray ends: exp(-16) = 1e-7
+// A ray ends at the first depth if nothing behind can matter beside what is seen already, and surely at the second, exp(-80) =
+// 1e-35.
+constexpr float deep = 16, deepest = 80;
+constexpr float matters = 1e-6F;
 
 // What is at a place of the ray.
 struct Local {
@@ -28,15 +33,19 @@ struct March {
   const TileView& view;
   MediumLookup medium;
   bool one_albedo, emits;
+  Real phase_most;  // [1/sr] largest value of the phase function
+  float glow_most;  // [W/m^2/sr] largest emission / extinction
 
   int i = 0;  // the first pixel
   Real3 d;
   Real front, within;  // optical depth so far, and that of Gaussians and grid alone
+  Real most;           // radiance that the whole ray can have, were it seen through nothing
   Mask going;
   Real sum[3];
 
   HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view);
   HWY_INLINE void begin(int first, const Real3& direction);
+  HWY_INLINE Mask ended() const;
   HWY_INLINE void stretch(Real begin, Real end, bool all);
   HWY_INLINE Local local(const Real3& p, bool all) const;
   HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real tau, const Local& here);
@@ -49,6 +58,12 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view)
     emits = emits || g.emission != glm::vec3(0);
   }
   if (a.grid) one_albedo = one_albedo && a.grid.albedo == a.albedo;
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  phase_most = max(phase_value(kind, g, 1.0), phase_value(kind, g, -1.0));
+  const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
+  glow_most = largest(a.emission) > 0 ? largest(a.emission) / std::max(a.extinction, 1e-30F) : 0;
+  for (const GaussianDensity& one : a.gaussians) glow_most += largest(one.emission) / one.extinction;
 }
 
 HWY_INLINE void March::begin(int first, const Real3& direction) {
@@ -57,10 +72,25 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   front = within = 0.0;
   going = Real(0.0) < Real(1.0);
   for (Real& s : sum) s = 0.0;
+  most = glow_most;
+  for (const Light& light : a.lights) {
+    const Real power = std::max({light.power.x, light.power.y, light.power.z});
+    Real foot, h = 1.0;
+    if (!light.directional) perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    most += power * phase_most / (h * h);
+  }
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
   }
+}
+
+// int sigma_t exp(-T) dt is 1 at most, which bounds what is behind.
+HWY_INLINE Mask March::ended() const {
+  const Mask dark = front >= deep;
+  if (!any_lane(dark)) return dark;
+  const Real seen = max(max(sum[0], sum[1]), sum[2]);
+  return (front >= deepest) || (dark && (transmittance(front) * most <= seen * matters));
 }
 
 HWY_INLINE Local March::local(const Real3& p, bool all) const {
@@ -92,11 +122,13 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
 // Light number k, scattered in the step [from, to] of optical depth tau.
 HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, const Local& here) {
   const Light& light = a.lights[k];
-  Real at, weight, beside = 0.0, mu;
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  Real at, weight, beside = 0.0, phase;
   if (light.directional) {
     at = (from + to) * 0.5;
     weight = to - from;
-    mu = -dot(real3(light.vector), d);
+    phase = phase_value(kind, g, -dot(real3(light.vector), d));
   } else {
     Real foot, h;
     perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
@@ -105,8 +137,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, co
     weight = step_angle(from, to, ra, rb, foot, h);
     Real r;
     step_means(from, to, ra, rb, foot, h, weight, at, r);
-    const Real past = at - foot;
-    mu = -past / sqrt(fma(past, past, h * h));
+    phase = step_phase(kind, g, before, after, ra, rb, h);
     beside = r * a.extinction;
   }
   if (medium.any()) {
@@ -116,8 +147,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, co
     beside += depth_of_way(medium, p, way, length, going);
   }
   const Real share = (at - from) / max(to - from, 1e-30);
-  const Real once = phase_value(static_cast<int>(a.phase.kind), static_cast<float>(a.phase.g), mu) * weight *
-                    step_transmittance(front, tau, share, beside);
+  const Real once = phase * weight * step_transmittance(front, tau, share, beside);
   for (int c = 0; c < 3; ++c) {
     const Real light_of_step = select(going, here.scattering[c] * once * light.power[c], 0.0);
     sum[c] += light_of_step;
@@ -129,7 +159,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, co
 
 // From `begin` to `end` in a.steps; all: with Gaussians and grid. Rays for which end <= begin stand still.
 HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
-  const Mask alive = front < deepest, marching = alive && (begin < end);
+  const Mask marching = !ended() && (begin < end);
   if (!any_lane(marching)) return;
   if (!all && !(a.extinction > 0)) {  // nothing there but a glow
     const Real glow = select(marching, (end - begin) * transmittance(front), 0.0);
@@ -141,10 +171,10 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
   const float n = static_cast<float>(a.steps);
   Real from = begin;
   for (int k = 0; k < a.steps; ++k) {
-    going = marching && (front < deepest);
+    going = marching && !ended();
     if (!any_lane(going) && !(whole && all)) break;
     const float next = static_cast<float>(k + 1);
-    const Real to = begin + (all ? length * (next / n) : opaque_step(next, n, length, a.extinction));
+    const Real to = begin + (all ? length * (next / n) : graded_step(next, n, length, a.extinction));
     const Real size = max(to - from, 0.0);
     const Local here = local(along({0.0, 0.0, 0.0}, d, (from + to) * 0.5), all);
     const Real tau = here.extinction * size;
@@ -160,7 +190,6 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
     if (all) within += select(counts, max(here.extinction - a.extinction, 0.0) * size, 0.0);
     from = to;
   }
-  going = marching && (front < deepest);
 }
 
 }  // namespace
@@ -190,7 +219,7 @@ static void ray_march(const RayMarch& a, const TileView& view) {
     march.stretch(behind, end, false);
 
     const Real tau = optical_depth(length, a.extinction) + march.within;
-    const Real through = select(march.front < deepest, transmittance(tau), 0.0);
+    const Real through = select(march.ended(), 0.0, transmittance(tau));
     const Real source = opacity(tau);
     for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], march.sum[c]), view.plane(a.airlight, c) + i);
     store(through, view.plane(a.transmittance) + i);

@@ -24,7 +24,10 @@ uniform int first_light;
 uniform int end_light;
 uniform int last_light;  // 1: no lights come after these
 
-const float deepest = 16.0;  // optical depth at which a ray ends: exp(-16) = 1e-7
+// A ray ends at the first depth if nothing behind can matter beside what is seen already, and surely at the second, exp(-80) = 1e-35.
+const float deep = 16.0;
+const float deepest = 80.0;
+const float matters = 1e-6;
 
 #ifdef WITH_OPTICAL_DEPTH
 const bool whole = true;  // it is wanted also behind where the ray ends
@@ -37,8 +40,31 @@ ivec2 pixel;
 vec3 d;
 float front = 0.0;   // optical depth so far
 float within = 0.0;  // that of Gaussians and grid alone
-bool going;
+float most;          // radiance that the whole ray can have, were it seen through nothing
 vec3 sum = vec3(0.0);
+
+float largest(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+void bound_ray() {
+  float phase_most = max(phase_value(phase_kind, emission_g.w, 1.0), phase_value(phase_kind, emission_g.w, -1.0));
+  most = largest(emission_g.xyz) > 0.0 ? largest(emission_g.xyz) / max(albedo_extinction.w, 1e-30) : 0.0;
+#ifdef WITH_GAUSSIANS
+  for (int g = 0; g < medium_counts.x; ++g) most += largest(emission_reach(g).xyz) / albedo_extinction_of(g).w;
+#endif
+  for (int k = 0; k < light_count.x; ++k) {
+    vec4 v = light_values[2 * k];
+    float foot;
+    float h = 1.0;
+    if (light_values[2 * k + 1].w == 0.0) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
+    most += largest(light_values[2 * k + 1].xyz) * phase_most / (h * h);
+  }
+}
+
+// int sigma_t exp(-T) dt is 1 at most, which bounds what is behind.
+bool ended() {
+  if (front < deep) return false;
+  return front >= deepest || transmittance(front) * most <= largest(sum) * matters;
+}
 
 // What is at a place of the ray.
 struct Local {
@@ -74,8 +100,10 @@ void add_light(int k, float from, float to, float tau, Local here) {
   float at = (from + to) * 0.5;
   float weight = to - from;
   float beside = 0.0;
-  float mu = -dot3(v, d);
-  if (power_directional.w == 0.0) {
+  float phase;
+  if (power_directional.w != 0.0) {
+    phase = phase_value(phase_kind, emission_g.w, -dot3(v, d));
+  } else {
     float foot;
     float h;
     perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
@@ -86,8 +114,7 @@ void add_light(int k, float from, float to, float tau, Local here) {
     weight = step_angle(from, to, ra, rb, foot, h);
     float r;
     step_means(from, to, ra, rb, foot, h, weight, at, r);
-    float past = at - foot;
-    mu = -past / sqrt(fma(past, past, h * h));
+    phase = step_phase(phase_kind, emission_g.w, before, after, ra, rb, h);
     beside = r * albedo_extinction.w;
   }
 #if defined(WITH_GAUSSIANS) || defined(WITH_GRID)
@@ -97,7 +124,7 @@ void add_light(int k, float from, float to, float tau, Local here) {
   beside += depth_of_way(p, way, length);
 #endif
   float share = (at - from) / max(to - from, 1e-30);
-  float once = phase_value(phase_kind, emission_g.w, mu) * weight * step_transmittance(front, tau, share, beside);
+  float once = phase * weight * step_transmittance(front, tau, share, beside);
   vec3 light_of_step = here.scattering * once * power_directional.xyz;
   sum += light_of_step;
 #ifdef WITH_PER_LIGHT
@@ -108,7 +135,7 @@ void add_light(int k, float from, float to, float tau, Local here) {
 
 // From `begin` to `end`, the steps from number `base` on; all: with Gaussians and grid. Nothing where end <= begin.
 void stretch(int base, float begin, float end, bool all) {
-  bool marching = front < deepest && begin < end;
+  bool marching = !ended() && begin < end;
   if (!marching) return;
   float extinction = albedo_extinction.w;
   if (!all && extinction <= 0.0) {  // nothing there but a glow
@@ -120,12 +147,12 @@ void stretch(int base, float begin, float end, bool all) {
   int first = max(first_step - base, 0);
   int last = min(end_step - base, steps);
   float before = float(first);
-  float from = begin + (all ? length * (before / n) : opaque_step(before, n, length, extinction));
+  float from = begin + (all ? length * (before / n) : graded_step(before, n, length, extinction));
   for (int k = first; k < last; ++k) {
-    going = front < deepest;
+    bool going = !ended();
     if (!going && !(whole && all)) break;
     float next = float(k + 1);
-    float to = begin + (all ? length * (next / n) : opaque_step(next, n, length, extinction));
+    float to = begin + (all ? length * (next / n) : graded_step(next, n, length, extinction));
     float size = max(to - from, 0.0);
     Local here = local_at(d * ((from + to) * 0.5), all);
     float tau = here.extinction * size;
@@ -148,6 +175,7 @@ void main() {
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
   float end = min(length, 1e15);
   d = pixel_ray(pixel);
+  bound_ray();
   if (first_step > 0 || first_light > 0) sum = imageLoad(airlight_image, at).xyz;
   if (first_step > 0) {
     front = imageLoad(airlight_image, at).w;
@@ -183,7 +211,7 @@ void main() {
 
   float tau = optical_depth(length, albedo_extinction.w) + within;
   imageStore(airlight_image, at, vec4(fma(vec3(opacity(tau)), ambient_sky_distance.xyz, sum), 0.0));
-  imageStore(transmittance_image, at, vec4(front < deepest ? transmittance(tau) : 0.0));
+  imageStore(transmittance_image, at, vec4(ended() ? 0.0 : transmittance(tau)));
 #ifdef WITH_OPTICAL_DEPTH
   imageStore(optical_depth_image, at, vec4(min(tau, 1e30)));
 #endif

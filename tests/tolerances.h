@@ -32,6 +32,7 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_off_edges", 0.001, "relative RMSE of shadow-planes off edges: single precision and interpolated tables"},
     {"truth_everywhere", 0.01,
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
+    {"truth_marching", 0.015, "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
     {"truth_edge_share", 0.005,
      "share of pixels within 1/100 pixel of an edge (0.0012 measured): all that truth_off_edges may leave out"},
     {"truth_stored", 1e-6,
@@ -60,7 +61,8 @@ inline constexpr Tolerance tolerances[] = {
     {"atan", 3e-7, "relative: the polynomial's 2e-8, a quotient and a difference rounded"},
     {"gaussian_table", 1e-7, "beside the whole line: the inputs are given as floats, which moves an end by 1e-7 of its distance"},
     {"gaussian_depth", 6e-7, "beside the whole line: half the difference of two erf_, exp_ of a rounded square"},
-    {"opaque_step", 2e-6, "beside the opacity of the whole: 1 - opacity and its logarithm are rounded"},
+    {"graded_step", 1e-5, "beside the logarithm of the whole: exp_ and log_ of numbers rounded beside 1"},
+    {"step_phase", 1e-2, "beside the mean and a tenth of the isotropic one: a step seen in 0.2 rad takes the phase halfway, second order in the angle"},
     {"step_angle", 2e-6, "beside the angle and 1 % of half a turn: the differences from the foot are rounded"},
     {"step_means", 1e-2,
      "beside the step: one of a tenth of the light's distance takes the half angle for the means, 0.1 / 12 away where it points "

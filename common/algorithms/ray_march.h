@@ -9,7 +9,7 @@
 namespace airlight {
 
 // Marches each pixel's ray through the medium from front to back: transmittance, light of unshadowed lights scattered once,
-// ambient and emitted light. Where only the homogeneous part is, `steps` share its opacity; from where the ray enters Gaussians
+// ambient and emitted light. Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters Gaussians
 // and grid to where it leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is
 // empty costs nothing.
 struct RayMarch {

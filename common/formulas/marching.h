@@ -1,14 +1,14 @@
 // Marching along a ray in steps. Inside a step extinction is constant, and what 1/r^2 of a point light and the extinction do to it is integrated,
 // not sampled.
 
-// Where step k of n begins in a stretch of homogeneous medium: steps of equal opacity, which in a thin medium are equal in length. k in 0..n.
-FORMULA real opaque_step(real k, real n, real length, real extinction) {
+// Where step k of n begins in a stretch of homogeneous medium, k in 0..n: in a thin one steps are of equal length, in a dense one they grow with
+// 1 + optical depth, fine in front and nowhere so coarse that a light behind much fog falls between them.
+FORMULA real graded_step(real k, real n, real length, real extinction) {
   real tau = extinction * length;
   real share = k / n;
-  real cut = 1.0 - opacity(tau) * share;
   real even = length * share;
-  real uneven = -log_(max(cut, 1e-30)) / max(extinction, 1e-30);
-  return select((tau < 0.02) || (k >= n), even, min(uneven, length));
+  real graded = (exp_(share * log_(1.0 + tau)) - 1.0) / max(extinction, 1e-30);
+  return select((tau < 0.02) || (k >= n), even, min(graded, length));
 }
 
 // A step [a, b] beside a point light whose foot is at `foot`, h > 0 away, ra and rb its distances from the ends: int_a^b dt / r^2, the angle in
@@ -44,6 +44,60 @@ FORMULA void step_means(real a, real b, real ra, real rb, real foot, real h, rea
     t = select(near_light, min(max(fma(log_(rb / ra), scale, foot), a), b), t);
     r = select(near_light, max(inverse * scale, h), r);
   }
+}
+
+// The direction halfway between two, given by sine and cosine of their angles in -pi/2..pi/2.
+FORMULA void halfway(real sin_a, real cos_a, real sin_b, real cos_b, OUT(real) s, OUT(real) c) {
+  real x = sin_a + sin_b;
+  real y = cos_a + cos_b;
+  real scale = 1.0 / sqrt(max(fma(x, x, y * y), 1e-37));
+  s = x * scale;
+  c = y * scale;
+}
+
+// Mean of the phase function between two directions in which the light sees the ray: Boole's rule in the angle.
+FORMULA real mean_phase(int kind, real g, real sin_a, real cos_a, real sin_b, real cos_b) {
+  real s2;
+  real c2;
+  real s1;
+  real s3;
+  real unused;
+  halfway(sin_a, cos_a, sin_b, cos_b, s2, c2);
+  halfway(sin_a, cos_a, s2, c2, s1, unused);
+  halfway(s2, c2, sin_b, cos_b, s3, unused);
+  real ends = phase_value(kind, g, -sin_a) + phase_value(kind, g, -sin_b);
+  real quarters = phase_value(kind, g, -s1) + phase_value(kind, g, -s3);
+  return (7.0 * ends + 32.0 * quarters + 12.0 * phase_value(kind, g, -s2)) * (1.0 / 90.0);
+}
+
+// The same over a step, whose ends lie to_a and to_b from the foot: halfway where the angle is small, in four parts where it is wide.
+FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb, real h) {
+  if (kind == 0) return phase_isotropic();
+  real s0 = to_a / ra;
+  real c0 = h / ra;
+  real s4 = to_b / rb;
+  real c4 = h / rb;
+  real s2;
+  real c2;
+  halfway(s0, c0, s4, c4, s2, c2);
+  real result = phase_value(kind, g, -s2);
+  real cos_angle = fma(s0, s4, c0 * c4);
+  mask turning = cos_angle < 0.98;
+  if (any_lane(turning)) {
+    result = select(turning, mean_phase(kind, g, s0, c0, s4, c4), result);
+    mask wide = cos_angle < 0.5;
+    if (any_lane(wide)) {
+      real s1;
+      real c1;
+      real s3;
+      real c3;
+      halfway(s0, c0, s2, c2, s1, c1);
+      halfway(s2, c2, s4, c4, s3, c3);
+      real parts = mean_phase(kind, g, s0, c0, s1, c1) + mean_phase(kind, g, s1, c1, s2, c2) + mean_phase(kind, g, s2, c2, s3, c3) + mean_phase(kind, g, s3, c3, s4, c4);
+      result = select(wide, 0.25 * parts, result);
+    }
+  }
+  return result;
 }
 
 // Light that arrives at the camera from a step of optical depth tau behind `front` of it, for a sample at share u of the step behind `beside` on its

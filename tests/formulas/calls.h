@@ -57,12 +57,15 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 28) r[0] = gaussian_falloff(a[0], a[1]);
   if (formula == 29) r[0] = gaussian_depth(a[0], a[1], a[2], a[3]);
   if (formula == 33) r[0] = grid_bound(t, a[0], a[1], a[2], a[3], a[4], a[5]);
-  if (formula == 30) r[0] = opaque_step(a[0], a[1], a[2], a[3]);
+  if (formula == 30) r[0] = graded_step(a[0], a[1], a[2], a[3]);
   if (formula == 31) {
     real ra = sqrt(fma(a[0] - a[2], a[0] - a[2], a[3] * a[3]));
     real rb = sqrt(fma(a[1] - a[2], a[1] - a[2], a[3] * a[3]));
     r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3]);
     step_means(a[0], a[1], ra, rb, a[2], a[3], r[0], r[1], r[2]);
+  }
+  if (formula == 34) {
+    r[0] = step_phase(kind, g, a[0], a[1], sqrt(fma(a[0], a[0], a[2] * a[2])), sqrt(fma(a[1], a[1], a[2] * a[2])), a[2]);
   }
   if (formula == 32) r[0] = step_transmittance(a[0], a[1], a[2], a[3]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);

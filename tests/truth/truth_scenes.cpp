@@ -187,6 +187,26 @@ Scene gaussians_behind_box() {
   return scene;
 }
 
+Scene lamp_in_gaussians() {
+  Scene scene = foggy_scene(0.02);
+  scene.camera = {.position = {0, 0.5, 4}, .look_at = {0, 0.2, -2}};
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.6};
+  scene.medium.albedo = {0.95, 0.95, 1};
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    Gaussian g;
+    const auto number = [&](std::uint32_t k, double from, double to) { return from + (to - from) * uniform(31, 8 * i + k); };
+    g.center = {number(0, -2, 2), number(1, -1, 1.5), number(2, -4, 1)};
+    g.radius = number(3, 0.3, 0.9);
+    g.extinction = number(4, 0.2, 3) / g.radius;
+    g.albedo = {0.95, number(5, 0.6, 1), number(6, 0.6, 1)};
+    if (i == 3) g.emission = {0.3, 0.15, 0.02};
+    scene.medium.gaussians.push_back(g);
+  }
+  scene.lights = {point_light({0.4, 0.6, -1}, {4, 3, 2}), directional_light({0.4, -1, -0.3}, {1, 1, 1.2})};
+  scene.background = {0.02, 0.03, 0.06};
+  return scene;
+}
+
 std::span<const TruthScene> stored_scenes() { return all_scenes; }
 std::span<const TruthScene> homogeneous_scenes() { return stored_scenes().subspan(1); }
 

@@ -25,6 +25,9 @@ std::span<const TruthScene> homogeneous_scenes();
 // The homogeneous part, two Gaussians and a box that throws a shadow into them.
 Scene gaussians_behind_box();
 
+// Five Gaussians, thin and dense, one of them glowing, in thin fog; a lamp among them, and the sun.
+Scene lamp_in_gaussians();
+
 // What tests/data/truth holds, with shadows.
 std::span<const TruthScene> stored_scenes();
 inline constexpr Extent stored_extent{96, 72};

@@ -9,23 +9,21 @@ namespace {
 
 constexpr std::uint32_t stream = 160;
 
-// Steps begin at 0, end at the length and share the opacity equally; in the opacity, beside that of the whole.
-Measured measure_opaque_step(const Run& run) {
+// Steps begin at 0, end at the length and grow with 1 + optical depth; in its logarithm, beside that of the whole.
+Measured measure_graded_step(const Run& run) {
   Random random(stream);
   Columns in;
   for (int i = 0; i < 20000; ++i) {
-    const double n = std::floor(random.magnitude(1, 1024)), tau = random.magnitude(1e-6, 16), k = random.magnitude(1e-4, 1e2);
+    const double n = std::floor(random.magnitude(1, 1024)), tau = random.magnitude(1e-6, 80), k = random.magnitude(1e-4, 1e2);
     const double which = i % 8 == 0 ? 0 : i % 8 == 1 ? n : std::floor(random.number(0, n));
     add_call(in, which, n, tau / k, k);
   }
-  const Columns found = run({Formula::opaque_step, in});
+  const Columns found = run({Formula::graded_step, in});
   Measured m;
   for (std::size_t i = 0; i < in[0].size(); ++i) {
-    const double share = in[0][i] / in[1][i], length = in[2][i], k = in[3][i], all = -std::expm1(-k * length);
-    const double even = length * share;
-    // In a thin medium the steps are of equal length, which shares the opacity to 1 %.
-    const double error =
-        k * length < 0.02 ? std::fabs(found[0][i] - even) / length : std::fabs(-std::expm1(-k * found[0][i]) - share * all) / all;
+    const double share = in[0][i] / in[1][i], length = in[2][i], k = in[3][i], all = std::log1p(k * length);
+    const double error = k * length < 0.02 ? std::fabs(found[0][i] - length * share) / length
+                                           : std::fabs(std::log1p(k * found[0][i]) - share * all) / all;
     const bool ends = (share > 0 || found[0][i] == 0) && (share < 1 || found[0][i] == length) && found[0][i] <= length;
     m.add(ends ? error : HUGE_VAL, [&] {
       return place({{"k", in[0][i]}, {"n", in[1][i]}, {"length", length}, {"extinction", k}});
@@ -83,6 +81,35 @@ Measured measure_means(const Run& run, bool of_distance) {
   return m;
 }
 
+// The mean phase function, beside itself and a tenth of the isotropic one, for steps of every size; |g| up to 0.6.
+Measured measure_phase(const Run& run) {
+  Measured m;
+  for (const Phase& phase : {Phase{PhaseKind::isotropic, 0}, Phase{PhaseKind::rayleigh, 0}, Phase{PhaseKind::mie_hazy, 0},
+                             Phase{PhaseKind::henyey_greenstein, 0.6}, Phase{PhaseKind::cornette_shanks, -0.5}}) {
+    Random random(stream + 3);
+    Columns in, at;
+    constexpr int nodes = 512;
+    std::vector<double> mu;
+    for (int i = 0; i < 500; ++i) {
+      const double h = random.magnitude(1e-3, 1e2), a = random.number(-10, 10), b = a + random.magnitude(1e-2, 30);
+      add_call(in, a, b, h);
+      const double from = std::atan2(in[0].back(), in[2].back()), to = std::atan2(in[1].back(), in[2].back());
+      for (int k = 0; k < nodes; ++k) mu.push_back(-std::sin(from + (k + 0.5) * (to - from) / nodes));
+    }
+    const Columns found = run({Formula::step_phase, in, phase});
+    for (const double cosine : mu) add_call(at, cosine);
+    const Columns values = run({Formula::phase_value, at, phase});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      double truth = 0;
+      for (std::size_t k = 0; k < nodes; ++k) truth += values[0][i * nodes + k] / nodes;
+      m.add(std::fabs(found[0][i] - truth) / (truth + 0.008), [&] {
+        return place({{"phase", static_cast<double>(phase.kind)}, {"a", in[0][i]}, {"b", in[1][i]}, {"h", in[2][i]}});
+      });
+    }
+  }
+  return m;
+}
+
 // At the step's middle it is the mean of exp(-t) over the step, whatever its depth.
 Measured measure_transmittance(const Run& run) {
   Random random(stream + 2);
@@ -108,10 +135,11 @@ Measured measure_transmittance(const Run& run) {
 }  // namespace
 
 void add_marching_checks(std::vector<Check>& checks) {
-  checks.push_back({"opaque_step", measure_opaque_step, "opacity_double", "opaque_step"});
+  checks.push_back({"graded_step", measure_graded_step, "geometry_double", "graded_step"});
   checks.push_back({"step_angle", measure_angle, "geometry_double", "step_angle"});
   checks.push_back({"step_mean_place", [](const Run& run) { return measure_means(run, false); }, "step_means", "step_means"});
   checks.push_back({"step_mean_distance", [](const Run& run) { return measure_means(run, true); }, "step_means", "step_means"});
+  checks.push_back({"step_phase", measure_phase, "step_phase", "step_phase"});
   checks.push_back({"step_transmittance", measure_transmittance, "opacity_double", "opacity"});
 }
 
