@@ -31,9 +31,9 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const glm::vec3 ambient = dark ? glm::vec3(0) : glm::vec3(medium.ambient);
   const auto extinction = static_cast<float>(medium.extinction);
   // Knobs that this scene does not need are held, so that they make nothing stale.
-  const int light_steps = uneven ? static_cast<int>(request.knobs.number("light_steps")) : 1;
-  const LightDepth light_depth =
-      request.knobs.choice("shadow") == "march" && !gaussians.empty() ? LightDepth::march : LightDepth::analytic;
+  const bool marched = request.knobs.choice("shadow") == "march" && !gaussians.empty();
+  const LightDepth light_depth = marched ? LightDepth::march : LightDepth::analytic;
+  const int light_steps = marched || medium.grid ? static_cast<int>(request.knobs.number("light_steps")) : 1;
 
   Images images(request, plan, first_image_id);
   const Image distance = images.make("depth", Format::r32f);

@@ -1,0 +1,48 @@
+#include "bench/pareto/sweep.h"
+
+#include <map>
+#include <set>
+
+#include "common/plan/keys.h"
+
+namespace airlight {
+
+std::vector<Settings> products(std::span<const Knob> knobs) {
+  std::vector<Settings> all{{}};
+  for (const Knob& knob : knobs) {
+    if (knob.sweep.empty()) continue;
+    std::vector<Settings> longer;
+    for (const Settings& settings : all) {
+      for (const std::string_view value : knob.sweep) {
+        longer.push_back(settings);
+        longer.back().emplace_back(knob.name, value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent) {
+  std::set<std::vector<std::uint64_t>> seen;
+  std::vector<Settings> different;
+  for (const Settings& settings : products(technique.knobs)) {
+    FrameRequest request;
+    request.extent = extent;
+    request.images = {"beauty"};
+    request.knobs = KnobValues(technique.knobs, settings);
+    const Plan plan = technique.plan(scene, request);
+    std::map<Handle, std::uint64_t> uploads;
+    for (const Plan::Upload& upload : plan.uploads) uploads[upload.buffer] = upload.key;
+    if (seen.insert(step_keys(plan.steps, [&](Handle h) { return uploads.at(h); })).second) different.push_back(settings);
+  }
+  return different;
+}
+
+std::string text_of(const Settings& settings) {
+  std::string text;
+  for (const auto& [name, value] : settings) text += (text.empty() ? "" : " ") + name + "=" + value;
+  return text;
+}
+
+}  // namespace airlight

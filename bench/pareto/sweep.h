@@ -1,0 +1,30 @@
+// What is measured: every technique that renders a scene, on each backend, with every product of its knobs' sweeps.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/image.h"
+#include "common/scene/scene.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;  // knob, value
+
+struct Configuration {
+  std::string technique, backend;
+  Settings knobs;  // those with a sweep
+};
+
+// Products of the sweeps, the first knob slowest; knobs without one keep their standard.
+std::vector<Settings> products(std::span<const Knob>);
+
+// Those of one technique that differ in their plan: a knob that the scene does not need is not swept.
+std::vector<Settings> different_settings(const Technique&, const Scene&, Extent);
+
+// "steps=32 light_steps=16"
+std::string text_of(const Settings&);
+
+}  // namespace airlight
