@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/command.h"
+#include "common/scene/grid_file.h"
 #include "common/techniques/technique.h"
 #include "cpu/parallel.h"
 #include "cpu/targets.h"
@@ -35,8 +36,8 @@ int info() {
   for (const char* context : {"osmesa", "egl"}) print_context(context);
   fmt::print("techniques:\n");
   for (const Technique& t : techniques()) fmt::print("  {}: {}\n", t.name, t.summary);
-  fmt::print("libraries: OpenImageIO {}, assimp {}.{}.{}, Embree {}, Highway {}, {}, fmt {}, CLI11 {}\n",
-             dotted(OIIO::openimageio_version()), aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(),
+  fmt::print("libraries: OpenImageIO {}, assimp {}.{}.{}, {}, Embree {}, Highway {}, {}, fmt {}, CLI11 {}\n",
+             dotted(OIIO::openimageio_version()), aiGetVersionMajor(), aiGetVersionMinor(), aiGetVersionPatch(), grid_library(),
              RTC_VERSION_STRING, highway_version(), parallel_library(), dotted(FMT_VERSION), CLI11_VERSION);
   return 0;
 }

@@ -1,11 +1,14 @@
 #include "common/reference/airlight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "common/formulas/double.h"
+#include "common/reference/shadow_plane.h"
 
 namespace airlight {
 
@@ -40,18 +43,30 @@ std::vector<double> pieces_of(const std::vector<Interval>& shadows, std::vector<
 
 }  // namespace
 
-Medium relative_medium(const Medium& medium, const glm::dvec3& camera) {
-  Medium relative = medium;
-  for (Gaussian& g : relative.gaussians) g.center -= camera;
-  return relative;
+RelativeMedium::RelativeMedium(const Medium& medium, const glm::dvec3& camera) : Medium(medium) {
+  for (Gaussian& g : gaussians) g.center -= camera;
+  if (!grid) return;
+  grid->transform = glm::translate(glm::dmat4(1), -camera) * grid->transform;
+  field.emplace(*grid);
 }
 
-double depth_to_light(const Medium& medium, const glm::dvec3& point, const RelativeLight& light, double length) {
-  if (light.directional) return optical_depth(medium.gaussians, point, -light.vector, infinity);
-  return medium.extinction * length + optical_depth(medium.gaussians, point, light.vector);
+double depth_to_light(const RelativeMedium& medium, const glm::dvec3& point, const RelativeLight& light, double length) {
+  double sum = 0;
+  if (light.directional) {
+    sum = optical_depth(medium.gaussians, point, -light.vector, infinity);
+    if (medium.field) sum += medium.field->depth(point, -light.vector, infinity);
+    return sum;
+  }
+  sum = medium.extinction * length + optical_depth(medium.gaussians, point, light.vector);
+  if (medium.field) {
+    const glm::dvec3 way = light.vector - point;
+    const double far = glm::length(way);
+    if (far > 0) sum += medium.field->depth(point, way / far, far);
+  }
+  return sum;
 }
 
-RayInMedium::RayInMedium(const Medium& medium, const glm::dvec3& direction, double length)
+RayInMedium::RayInMedium(const RelativeMedium& medium, const glm::dvec3& direction, double length)
     : medium_(medium), direction_(direction), length_(length) {
   double most = 0, end = 0;
   for (const Gaussian& g : medium.gaussians) {
@@ -64,22 +79,27 @@ RayInMedium::RayInMedium(const Medium& medium, const glm::dvec3& direction, doub
   }
   // A Gaussian this much thinner than another is below rounding, even one next to the light (1/r^2 up to 1e12 in metres).
   std::erase_if(on_ray_, [&](const OnRay& o) { return o.line.depth(0, length) < 1e-30 * most; });
+  if (medium.field) grid_.emplace(*medium.field, glm::dvec3(0), direction, length);
+  if (grid_ && grid_->empty()) grid_.reset();
+  if (grid_) end = std::max(end, grid_->end());
   reach_ = std::min(length, medium.extinction > 0 ? black / medium.extinction : end);
 }
 
 double RayInMedium::depth(double t) const {
   double sum = medium_.extinction > 0 ? medium_.extinction * t : 0;
   for (const OnRay& o : on_ray_) sum += o.line.depth(0, t);
+  if (grid_) sum += grid_->depth(t);
   return sum;
 }
 
 glm::dvec3 RayInMedium::scattering(double t) const {
   glm::dvec3 sum = medium_.extinction * medium_.albedo;
   for (const OnRay& o : on_ray_) sum += o.line.density(t) * o.gaussian->albedo;
+  if (grid_) sum += grid_->extinction(t) * grid_->albedo();
   return sum;
 }
 
-// Where what the ray passes changes: along the fade of the homogeneous part, and across each Gaussian.
+// Where what the ray passes changes: along the fade of the homogeneous part, across each Gaussian, at the grid's cells.
 std::vector<double> RayInMedium::breaks() const {
   std::vector<double> t;
   for (const double depth : {0.3, 1.0, 3.0, 10.0, 40.0, 150.0}) {
@@ -88,10 +108,12 @@ std::vector<double> RayInMedium::breaks() const {
   for (const OnRay& o : on_ray_) {
     for (const double radii : {-8.0, -3.0, -1.0, 0.0, 1.0, 3.0, 8.0}) t.push_back(o.line.foot + radii / o.line.a);
   }
+  if (grid_) grid_->add_breaks(t);
   return t;
 }
 
-// Where the way to the light changes: at its foot, along the fade from there, and where the ray passes behind a Gaussian.
+// Where the way to the light changes: at its foot, along the fade from there, and where the ray passes behind a Gaussian or the
+// grid.
 void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std::vector<double>& t) const {
   if (!light.directional) {
     t.push_back(foot);
@@ -112,6 +134,35 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
       t.push_back(light.directional ? x - y * along / height : along + (x - along) * (height / (height - y)));
     }
   }
+  if (medium_.field && (medium_.extinction > 0 || !on_ray_.empty())) add_grid_breaks(light, t);
+}
+
+// The part of the ray that the grid's box darkens is cut so that a piece of it looks toward the light through about four cells:
+// evenly in the angle at a point light, evenly along the ray for a directional one. A grid that scatters alone has its own
+// breaks.
+void RayInMedium::add_grid_breaks(const RelativeLight& light, std::vector<double>& t) const {
+  const ShadowPlane plane(direction_, length_, light);
+  if (plane.degenerate()) return;
+  static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  const std::vector<glm::dvec3>& corner = medium_.field->corners();
+  Interval all{infinity, -infinity};
+  for (const auto& [a, b, c, d] : faces) {
+    for (const Interval& s : {plane.shadow(corner[a], corner[b], corner[c]), plane.shadow(corner[a], corner[c], corner[d])}) {
+      all = {std::min(all.first, s.first), std::max(all.second, s.second)};
+    }
+  }
+  all = {std::max(all.first, 0.0), std::min(all.second, reach_)};
+  if (!(all.first < all.second)) return;
+  const glm::ivec3 pieces = medium_.field->pieces();
+  const int count = (pieces.x + pieces.y + pieces.z) / 4 + 1;
+  const double foot = plane.foot(), height = glm::length(light.vector - foot * direction_);
+  const double from = light.directional ? all.first : std::atan2(all.first - foot, height);
+  const double to = light.directional ? all.second : std::atan2(all.second - foot, height);
+  for (int i = 0; i <= count; ++i) {
+    const double at = from + (to - from) * i / count;
+    t.push_back(light.directional ? at : foot + height * std::tan(at));
+  }
 }
 
 Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<Interval>& shadow, double tolerance) const {
@@ -125,8 +176,10 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
     const double phase = f64::phase_value(kind, g, -glm::dot(light.vector, direction_));
     sum = integrate(
         [&](double x) {
+          const glm::dvec3 scattered = scattering(x);
+          if (scattered == glm::dvec3(0)) return scattered;  // the way to the light is long to compute
           const double tau = depth(x) + depth_to_light(medium_, x * direction_, light, 0);
-          return phase * std::exp(-tau) * scattering(x);
+          return phase * std::exp(-tau) * scattered;
         },
         pieces_of(shadow, t, reach_), tolerance);
   } else {
@@ -140,8 +193,10 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
     sum = integrate(
         [&](double s) {
           const double x = foot + h * std::sinh(s), r = h * std::cosh(s);
+          const glm::dvec3 scattered = scattering(x);
+          if (scattered == glm::dvec3(0)) return scattered;
           const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, x * direction_, light, r);
-          return f64::phase_value(kind, g, -std::tanh(s)) * std::exp(-tau) / r * scattering(x);
+          return f64::phase_value(kind, g, -std::tanh(s)) * std::exp(-tau) / r * scattered;
         },
         pieces, tolerance);
   }
@@ -159,7 +214,8 @@ Integral RayInMedium::emitted(double tolerance) const {
         return std::exp(-depth(t)) * source;
       },
       pieces_of({}, breaks(), reach_), tolerance);
-  // Without extinction of its own the homogeneous part goes on glowing behind the last Gaussian; infinity is 1e30 as elsewhere.
+  // Without extinction of its own the homogeneous part goes on glowing behind the last Gaussian or the grid; infinity is 1e30 as
+  // elsewhere.
   if (!(medium_.extinction > 0)) sum.value += (std::min(length_, 1e30) - reach_) * std::exp(-depth()) * medium_.emission;
   return sum;
 }

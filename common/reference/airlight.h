@@ -3,8 +3,10 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
+#include "common/reference/grid.h"
 #include "common/reference/optical_depth.h"
 #include "common/reference/quadrature.h"
 #include "common/reference/visibility.h"
@@ -12,14 +14,18 @@
 
 namespace airlight {
 
-// The medium relative to the camera.
-Medium relative_medium(const Medium&, const glm::dvec3& camera);
+// A medium relative to the camera, and what is made of its grid once.
+struct RelativeMedium : Medium {
+  std::optional<GridField> field;  // there where the grid is
+
+  RelativeMedium(const Medium&, const glm::dvec3& camera);
+};
 
 // A view ray from the camera through the medium.
 class RayInMedium {
  public:
-  // `medium` (relative to the camera) must outlive this; unit direction; length [m], may be infinite.
-  RayInMedium(const Medium& medium, const glm::dvec3& direction, double length);
+  // `medium` must outlive this; unit direction; length [m], may be infinite.
+  RayInMedium(const RelativeMedium& medium, const glm::dvec3& direction, double length);
 
   double depth(double t) const;  // T(camera, t) [1]; infinite where it is
   double depth() const { return depth(length_); }
@@ -39,14 +45,17 @@ class RayInMedium {
   glm::dvec3 scattering(double t) const;  // sigma_s [1/m]
   std::vector<double> breaks() const;
   void add_light_breaks(const RelativeLight&, double foot, std::vector<double>&) const;
+  void add_grid_breaks(const RelativeLight&, std::vector<double>&) const;
 
-  const Medium& medium_;
+  const RelativeMedium& medium_;
   glm::dvec3 direction_;
   double length_ = 0, reach_ = 0;
-  std::vector<OnRay> on_ray_;  // those that are not negligible
+  std::vector<OnRay> on_ray_;       // those that are not negligible
+  std::optional<GridOnLine> grid_;  // where the ray meets it
 };
 
-// Optical depth from a point to the light: Gaussians always, the homogeneous part for point lights only, over `length` [m].
-double depth_to_light(const Medium&, const glm::dvec3& point, const RelativeLight&, double length);
+// Optical depth from a point to the light: Gaussians and the grid always, the homogeneous part for point lights only, over
+// `length` [m].
+double depth_to_light(const RelativeMedium&, const glm::dvec3& point, const RelativeLight&, double length);
 
 }  // namespace airlight

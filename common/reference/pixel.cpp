@@ -11,7 +11,7 @@
 namespace airlight {
 
 Reference::Reference(const Scene& scene, const ReferenceSettings& settings)
-    : scene_(scene), medium_(relative_medium(scene.medium, scene.camera.position)), settings_(settings), visibility_(scene) {
+    : scene_(scene), medium_(scene.medium, scene.camera.position), settings_(settings), visibility_(scene) {
   for (const LightSource& l : scene.lights) lights_.emplace_back(l, scene.camera.position);
   forward_ = glm::normalize(scene.camera.look_at - scene.camera.position);
   right_ = glm::normalize(glm::cross(forward_, scene.camera.up));

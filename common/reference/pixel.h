@@ -38,8 +38,8 @@ struct ReferenceParts {
 };
 
 // The truth about one scene; const calls may come from any thread. Definitions: single scattering by point and directional lights
-// in the homogeneous medium and Gaussians, direct light on surfaces, r_l as the least distance to a point light. Emission of a
-// Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least distance to a point light.
+// Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   explicit Reference(const Scene&, const ReferenceSettings& = {});
@@ -63,7 +63,7 @@ class Reference {
   void shade(const glm::dvec3& direction, const Seen&, ReferencePixel&) const;
 
   Scene scene_;
-  Medium medium_;
+  RelativeMedium medium_;
   ReferenceSettings settings_;
   std::vector<RelativeLight> lights_;
   Visibility visibility_;

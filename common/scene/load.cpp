@@ -71,7 +71,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (const auto camera = o.find("camera")) scene.camera = parse_camera(*camera);
   if (const auto sky = o.find("sky_distance")) scene.sky_distance = sky->number(limits::length);
   if (const auto medium = o.find("medium")) {
-    scene.medium = parse_medium(*medium);
+    parse_medium(*medium, directory, loading, progress);
     check_emission(*medium, scene);
   }
   if (const auto lights = o.find("lights")) scene.lights = parse_lights(*lights);

@@ -13,7 +13,7 @@ namespace airlight {
 
 // Loads a scene file and every file that it names (paths are relative to the scene file). Throws InputError with
 // "file:line:column: what is wrong, what was expected" for bad content, for a key or type of a later version by its name, for
-// limits (2^31 indices, 50 million triangles, 65535 pixels a side), before allocating for them.
+// limits (2^31 indices, 50 million triangles, 2^29 cells of a grid, 65535 pixels a side), before allocating for them.
 Scene load_scene(const std::string& path, Progress&);
 Scene load_scene(const std::string& path);
 

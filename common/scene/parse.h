@@ -13,9 +13,11 @@
 namespace airlight {
 
 Camera parse_camera(const Node&);
-Medium parse_medium(const Node&);
 std::vector<LightSource> parse_lights(const Node&);
-glm::dmat4 parse_transform(const Object& surface);
+// From `transform`, or from `translate`, `rotate` and the key that is named `factor`.
+glm::dmat4 parse_transform(const Object&, std::string_view factor);
+// Whether the linear part is no more than rounding away from one without an inverse; also for NaN.
+bool singular(const glm::dmat4&);
 Material parse_material(const Node&);
 
 // A scene with what its hash needs beyond the value.
@@ -26,9 +28,13 @@ struct LoadedSurface {
 struct Loading {
   Scene scene;
   std::vector<LoadedSurface> surfaces;  // one a surface
+  std::string grid_hash, grid_name;     // of the medium's grid: its file's bytes, its name there
 };
 
-// `directory` is where relative paths start. A file that two surfaces name is read once.
+// Into scene.medium; `directory` is where relative paths start.
+void parse_medium(const Node&, const std::string& directory, Loading&, Progress&);
+
+// A file that two surfaces name is read once.
 void parse_surfaces(const Node&, const std::string& directory, Loading&, Progress&);
 
 // SHA-256 over every value (defaults filled in, in a fixed order) and the hashes of the files.

@@ -1,5 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+
+#include "common/error.h"
+#include "common/scene/files.h"
+#include "common/scene/grid_file.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
 
@@ -48,14 +55,63 @@ Gaussian parse_gaussian(const Node& node, const Medium& medium) {
   return g;
 }
 
+// Its box, half a cell wider as its extinction is, within what single precision can hold.
+void check_extent(const Node& node, const GridMedium& grid) {
+  const glm::dvec3 size(grid.voxels->size);
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec3 cell;
+    for (int k = 0; k < 3; ++k) cell[k] = (corner >> k & 1) != 0 ? size[k] + 0.5 : -0.5;
+    const glm::dvec3 w(grid.transform * glm::dvec4(cell, 1.0));
+    const double largest = std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
+    if (!(largest <= limits::farthest)) {
+      node.fail(fmt::format("a corner of the grid is at ({}, {}, {}), expected coordinates up to {} m", w.x, w.y, w.z,
+                            limits::farthest));
+    }
+  }
+}
+
+GridMedium parse_grid(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
+  static constexpr auto known = keys("file", "name", "scale", "transform", "translate", "rotate", "size", "albedo");
+  const Object o(node, known);
+  GridMedium grid;
+  const glm::dmat4 placement = parse_transform(o, "size");
+  const auto name = o.find("name"), scale = o.find("scale"), albedo = o.find("albedo");
+  if (scale) grid.scale = scale->number(limits::extinction);
+  grid.albedo = albedo ? albedo->vec3(limits::fraction) : loading.scene.medium.albedo;
+  loading.grid_name = name ? name->string() : "density";
+
+  // The file comes last: what the scene says itself is checked without it.
+  const Node file = o.require("file");
+  const std::string path = resolved(directory, file.string());
+  GridFile read;
+  try {
+    read = read_grid_file(path, loading.grid_name, progress);
+  } catch (const InputError& e) {
+    file.fail(e.what());
+  }
+  loading.grid_hash = read.content_hash;
+  grid.voxels = read.voxels;
+  grid.transform = placement * read.transform;
+  if (singular(read.transform)) file.fail(path + ": its transform is singular, expected an invertible one");
+  if (singular(grid.transform)) node.fail("a singular transform with that of the file, expected an invertible one");
+  check_extent(file, grid);
+  const auto largest = static_cast<double>(*std::max_element(read.voxels->values.begin(), read.voxels->values.end()));
+  if (largest * grid.scale > limits::extinction.most) {
+    (scale ? *scale : file)
+        .fail(fmt::format("extinction {} 1/m where the grid's value is {}, expected at most {} 1/m", largest * grid.scale,
+                          largest, limits::extinction.most));
+  }
+  return grid;
+}
+
 }  // namespace
 
-Medium parse_medium(const Node& node) {
-  static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians");
-  static constexpr std::array<LaterKey, 3> later{
-      {{"grid", "voxel grids are"}, {"gaussians_file", "files of Gaussians are"}, {"particles_file", "files of particles are"}}};
+void parse_medium(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
+  static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians", "grid");
+  static constexpr std::array<LaterKey, 2> later{
+      {{"gaussians_file", "files of Gaussians are"}, {"particles_file", "files of particles are"}}};
   const Object o(node, known, later);
-  Medium m;
+  Medium& m = loading.scene.medium;
   if (const auto phase = o.find("phase")) m.phase = parse_phase(*phase);
   if (const auto albedo = o.find("albedo")) m.albedo = albedo->vec3(limits::fraction);
   if (const auto ambient = o.find("ambient")) m.ambient = ambient->vec3(limits::radiance);
@@ -64,7 +120,7 @@ Medium parse_medium(const Node& node) {
   if (const auto gaussians = o.find("gaussians")) {
     for (const Node& g : gaussians->array()) m.gaussians.push_back(parse_gaussian(g, m));
   }
-  return m;
+  if (const auto grid = o.find("grid")) m.grid = parse_grid(*grid, directory, loading, progress);
 }
 
 }  // namespace airlight

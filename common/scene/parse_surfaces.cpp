@@ -37,9 +37,9 @@ glm::dmat4 rotation(int axis, double degrees) {
   return m;
 }
 
-glm::dmat4 translate_rotate_scale(const Object& o) {
+glm::dmat4 translate_rotate_scale(const Object& o, std::string_view factor) {
   glm::dmat4 scaling(1.0), turning(1.0), moving(1.0);
-  if (const auto scale = o.find("scale")) {
+  if (const auto scale = o.find(factor)) {
     const bool one = scale->value().kind == json::Kind::number;
     const glm::dvec3 s = one ? glm::dvec3(scale->number(limits::component)) : scale->vec3(limits::component);
     if (s.x == 0 || s.y == 0 || s.z == 0) scale->fail("0, expected factors other than 0");
@@ -51,13 +51,6 @@ glm::dmat4 translate_rotate_scale(const Object& o) {
   }
   if (const auto translate = o.find("translate")) moving[3] = glm::dvec4(translate->vec3(limits::coordinate), 1);
   return moving * turning * scaling;
-}
-
-// The determinant against that of a box with the same edges: scale alone does not make a matrix singular.
-bool singular(const glm::dmat4& m) {
-  const glm::dmat3 linear(m);
-  const double box = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-  return !(std::abs(glm::determinant(linear)) > 1e-9 * box && box > 1e-30);
 }
 
 void check_extent(const Node& node, const Surface& surface) {
@@ -73,19 +66,27 @@ void check_extent(const Node& node, const Surface& surface) {
 
 }  // namespace
 
-glm::dmat4 parse_transform(const Object& o) {
+// The determinant against that of a box with the same edges: scale alone does not make a matrix singular.
+bool singular(const glm::dmat4& m) {
+  const glm::dmat3 linear(m);
+  const double box = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+  return !(std::abs(glm::determinant(linear)) > 1e-9 * box && box > 1e-30);
+}
+
+glm::dmat4 parse_transform(const Object& o, std::string_view factor) {
   const auto transform = o.find("transform");
   glm::dmat4 m(1.0);
   if (transform) {
-    for (const std::string_view other : {"translate", "rotate", "scale"}) {
-      if (const auto node = o.find(other)) node->fail("transform is given too, expected it or translate, rotate, scale");
+    for (const std::string_view other : {std::string_view("translate"), std::string_view("rotate"), factor}) {
+      if (const auto node = o.find(other))
+        node->fail(fmt::format("transform is given too, expected it or translate, rotate, {}", factor));
     }
     m = transform->mat4(limits::component);
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) {
       transform->fail("not affine, expected numbers 4, 8 and 12 to be 0 and number 16 to be 1 (column by column)");
     }
   } else {
-    m = translate_rotate_scale(o);
+    m = translate_rotate_scale(o, factor);
   }
   if (singular(m)) (transform ? *transform : o.node()).fail("a singular transform, expected an invertible one");
   return m;
@@ -126,7 +127,7 @@ void parse_surfaces(const Node& node, const std::string& directory, Loading& loa
       prt->fail("precomputed radiance transfer is not supported by this version, expected false");
     }
     Surface surface;
-    surface.transform = parse_transform(o);
+    surface.transform = parse_transform(o, "scale");
     if (const auto casts = o.find("casts_shadow")) surface.casts_shadow = casts->boolean();
     if (const auto material = o.find("material")) surface.material = parse_material(*material);
     const auto normals = o.find("normals");

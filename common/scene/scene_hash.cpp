@@ -55,6 +55,13 @@ std::string scene_hash(const Loading& loading) {
   c.add("sky_distance", s.sky_distance);
   c.add("background", s.background);
   add(c, s.medium);
+  if (s.medium.grid) {
+    c.line("grid", loading.grid_hash);
+    c.line("grid name", loading.grid_name);
+    for (int column = 0; column < 4; ++column) c.add("transform", glm::dvec3(s.medium.grid->transform[column]));
+    c.add("scale", s.medium.grid->scale);
+    c.add("albedo", s.medium.grid->albedo);
+  }
   for (const LightSource& l : s.lights) {
     c.add("light", static_cast<double>(l.type));
     c.line("name", l.name);

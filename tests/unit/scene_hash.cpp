@@ -44,7 +44,8 @@ const std::string scene_text = R"({
   "sky_distance": 100,
   "medium": { "phase": { "type": "henyey_greenstein", "g": 0.5 }, "albedo": [1, 0.9, 0.8], "ambient": [0.1, 0.2, 0.3],
     "emission": [0.01, 0.02, 0.03], "homogeneous": { "extinction": 0.25 },
-    "gaussians": [ { "center": [1, 2, 3], "radius": 0.5, "extinction": 1.5, "albedo": [0.5, 0.6, 0.7], "emission": [4, 5, 6] } ] },
+    "gaussians": [ { "center": [1, 2, 3], "radius": 0.5, "extinction": 1.5, "albedo": [0.5, 0.6, 0.7], "emission": [4, 5, 6] } ],
+    "grid": { "file": "grid.vdb", "name": "density", "translate": [34, 35, 36], "scale": 37.5, "albedo": [0.31, 0.32, 0.33] } },
   "lights": [ { "type": "point", "name": "lamp", "position": [7, 8, 9], "intensity": [10, 11, 12], "radius": 0.125 },
     { "type": "directional", "direction": [0, -1, 0], "irradiance": [13, 14, 15] } ],
   "surfaces": [ { "mesh": "square.obj", "translate": [16, 17, 18], "casts_shadow": false,
@@ -55,7 +56,10 @@ const std::string scene_text = R"({
 
 class SceneHash : public testing::Test {
  protected:
-  SceneHash() { folder.write("square.obj", square_obj); }
+  SceneHash() {
+    folder.write("square.obj", square_obj);
+    folder.write("grid.vdb", bytes_of(AIRLIGHT_TEST_DATA "/broken/grid.vdb"));
+  }
   std::string hash(const std::string& text) const { return load_scene(folder.write("scene.json", text)).hash; }
   Folder folder;
 };
@@ -67,7 +71,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST_F(SceneHash, EveryValueChangesIt) {
-  const std::array<std::array<std::string, 2>, 41> changes{{{"[0, 1, 6]", "[0, 1, 5]"},
+  const std::array<std::array<std::string, 2>, 45> changes{{{"[0, 1, 6]", "[0, 1, 5]"},
                                                             {"\"look_at\": [0, 1, 0]", "\"look_at\": [0, 1.5, 0]"},
                                                             {"\"vertical_fov\": 40", "\"vertical_fov\": 41, \"up\": [0, 1, 0]"},
                                                             {"\"vertical_fov\"", "\"up\": [1, 1, 0], \"vertical_fov\""},
@@ -97,13 +101,17 @@ TEST_F(SceneHash, EveryValueChangesIt) {
                                                             {"0.26", "0.265"},
                                                             {"28", "28.5"},
                                                             {"31, 32", "31, 32.5"},
+                                                            {"[34, 35", "[34, 35.5"},
+                                                            {"37.5", "38"},
+                                                            {"0.32", "0.325"},
+                                                            {"\"name\": \"density\", ", "\"size\": 2, "},
                                                             {"reference", "marching"},
                                                             {"33", "34"},
                                                             {"fine", "coarse"},
                                                             {"\"kind\"", "\"sort\""},
-                                                            {"\"translate\"", "\"scale\": 2, \"translate\""},
-                                                            {"\"translate\"", "\"rotate\": [0, 1, 0], \"translate\""},
-                                                            {"\"translate\"", "\"normals\": \"flat\", \"translate\""},
+                                                            {"\"translate\": [16", "\"scale\": 2, \"translate\": [16"},
+                                                            {"\"translate\": [16", "\"rotate\": [0, 1, 0], \"translate\": [16"},
+                                                            {"\"translate\": [16", "\"normals\": \"flat\", \"translate\": [16"},
                                                             {"\"sky_distance\": 100,", ""},
                                                             {", \"emission\": [4, 5, 6]", ""},
                                                             {"\"name\": \"lamp\", ", ""},
@@ -122,6 +130,17 @@ TEST_F(SceneHash, EveryMeshByteChangesIt) {
   EXPECT_TRUE(hashes.insert(hash(scene_text)).second);
 }
 
+TEST_F(SceneHash, EveryGridByteChangesIt) {
+  std::set<std::string> hashes{hash(scene_text)};
+  std::string bytes = bytes_of(folder.file("grid.vdb"));
+  bytes[21] ^= 1;  // of the file's own name, which changes no value
+  folder.write("grid.vdb", bytes);
+  EXPECT_TRUE(hashes.insert(hash(scene_text)).second);
+  bytes += ' ';
+  folder.write("grid.vdb", bytes);
+  EXPECT_TRUE(hashes.insert(hash(scene_text)).second);
+}
+
 TEST_F(SceneHash, FormattingOrderAndDefaultsKeepIt) {
   const std::string before = hash(scene_text);
   std::string text = scene_text;
@@ -135,6 +154,7 @@ TEST_F(SceneHash, FormattingOrderAndDefaultsKeepIt) {
   EXPECT_EQ(hash(replaced(scene_text, "\"casts_shadow\"",
                           "\"rotate\": [0, 360, 0], \"prt\": false, \"normals\": \"auto\", \"scale\": 1, \"casts_shadow\"")),
             before);
+  EXPECT_EQ(hash(replaced(scene_text, "\"name\": \"density\"", "\"size\": [1, 1, 1]")), before);
   EXPECT_EQ(
       hash(replaced(scene_text, "\"translate\": [16, 17, 18]", "\"transform\": [1,0,0,0, 0,1,0,0, 0,0,1,-0.0, 16,17,18,1]")),
       before);
@@ -144,6 +164,7 @@ TEST_F(SceneHash, PlacesOfFilesKeepIt) {
   const std::string before = hash(scene_text);
   const Folder other("elsewhere");
   other.write("box.obj", square_obj);
+  other.write("grid.vdb", bytes_of(folder.file("grid.vdb")));
   EXPECT_EQ(load_scene(other.write("other.json", replaced(scene_text, "square.obj", "box.obj"))).hash, before);
   EXPECT_EQ(hash(replaced(scene_text, "square.obj", other.file("box.obj"))), before);
   EXPECT_EQ(hash(replaced(scene_text, "square.obj", "../folder/./square.obj")), before);
