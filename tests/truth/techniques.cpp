@@ -57,12 +57,11 @@ const std::array<Part, 3> parts{{{"beauty", [](const ReferencePixel& p) { return
 
 class Techniques : public testing::TestWithParam<TruthScene> {};
 
-// This version of the technique leaves shadows out, so the truth does.
 TEST_P(Techniques, ShadowPlanes) {
   const Scene scene = GetParam().make();
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, false}, true, threads, progress);
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true}, true, threads, progress);
   const double share = truth.edge_share();
   std::printf("%dx%d, %.2f %% of the pixels at edges, truth claims %.1e\n", extent.width, extent.height, 100 * share,
               truth.error);
