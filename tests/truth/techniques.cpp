@@ -1,6 +1,7 @@
 // Techniques on both backends against the reference.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include "app/airlight.h"
 #include "common/reference/reference.h"
 #include "tests/tolerances.h"
+#include "tests/truth/shadow_scenes.h"
 #include "tests/truth/truth_scenes.h"
 
 namespace airlight {
@@ -57,8 +59,8 @@ const std::array<Part, 3> parts{{{"beauty", [](const ReferencePixel& p) { return
 
 class Techniques : public testing::TestWithParam<TruthScene> {};
 
-TEST_P(Techniques, ShadowPlanes) {
-  const Scene scene = GetParam().make();
+void hold_to_truth(const TruthScene& truth_scene) {
+  const Scene scene = truth_scene.make();
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
   const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true}, true, threads, progress);
@@ -84,11 +86,20 @@ TEST_P(Techniques, ShadowPlanes) {
                   100 * error.off_edges, 100 * error.everywhere);
       EXPECT_FALSE(!(error.off_edges < tolerance("truth_off_edges"))) << backend << ' ' << part.name;
       EXPECT_FALSE(!(error.everywhere < tolerance("truth_everywhere"))) << backend << ' ' << part.name;
+      if (part.name == "airlight") {
+        EXPECT_FALSE(!(error.everywhere < tolerance("truth_airlight_everywhere"))) << backend;
+      }
+      const auto negative = std::count_if(image.values.begin(), image.values.end(), [](float v) { return !(v >= 0); });
+      EXPECT_EQ(negative, 0) << backend << ' ' << part.name;
     }
   }
 }
 
+TEST_P(Techniques, ShadowPlanes) { hold_to_truth(GetParam()); }
+
 INSTANTIATE_TEST_SUITE_P(Truth, Techniques, testing::ValuesIn(homogeneous_scenes().begin(), homogeneous_scenes().end()),
+                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Shadows, Techniques, testing::ValuesIn(shadow_scenes().begin(), shadow_scenes().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
