@@ -33,8 +33,12 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_everywhere", 0.01,
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
     {"truth_marching", 0.015, "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
-    {"truth_edge_share", 0.005,
-     "share of pixels within 1/100 pixel of an edge (0.0012 measured): all that truth_off_edges may leave out"},
+    {"truth_airlight_everywhere", 0.002,
+     "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
+     "airlight"},
+    {"truth_edge_share", 0.01,
+     "share of pixels within 1/100 pixel of an edge or of a shadow's boundary (0.0002 to 0.008 measured): all that "
+     "truth_off_edges may leave out"},
     {"truth_stored", 1e-6,
      "of the image's mean, beyond rounding to float: the reference asks for 1e-9 of a pixel, C libraries differ in a last digit"},
     {"riemann_sum", 1e-8, "relative, beyond half a step at each shadow boundary: rounding of sums of a million terms"},

@@ -72,6 +72,12 @@ struct Plan {
   std::vector<Output> outputs;  // the wanted images, each kept
 };
 
+// What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's file.
+struct Estimate {
+  double error = 0;    // relative RMSE of beauty
+  double seconds = 0;  // of a warm frame on the CPU of docs/RESULTS.md
+};
+
 struct Technique {
   std::string_view name;
   std::string_view summary;
@@ -79,6 +85,7 @@ struct Technique {
   // Why this technique cannot render the scene, or nothing.
   std::optional<std::string> (*refuses)(const Scene&) = nullptr;
   Plan (*plan)(const Scene&, const FrameRequest&) = nullptr;  // null for `reference`, which runs on no backend
+  Estimate (*estimate)(const Scene&, Extent, const KnobValues&, int threads) = nullptr;  // null for `reference`
 };
 
 // All techniques that work, in the order of --help; `reference` last.

@@ -126,7 +126,7 @@ TEST_F(Program, ExplainsAndCounts) {
   const Told told = work.run("explain scene.json");
   EXPECT_EQ(told.code, 0);
   for (const std::string word :
-       {"shadow-planes", "table_nodes = 64", "surface_visibility", "homogeneous_airlight", "casters are ignored"}) {
+       {"shadow-planes", "table_nodes = 64", "surface_visibility", "shadow_planes", "homogeneous_airlight"}) {
     EXPECT_NE(told.out.find(word), std::string::npos) << word << "\n" << told.out;
   }
   const Told counted = work.run("render scene.json -o a.exr --stats --stats-json stats.json");

@@ -28,6 +28,7 @@ struct NamedCase {
 
 // One list an algorithm, in the file of its name, and one of whole frames.
 std::span<const NamedCase> surface_visibility_cases();
+std::span<const NamedCase> shadow_planes_cases();
 std::span<const NamedCase> view_transmittance_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
