@@ -72,7 +72,8 @@ struct Plan {
   std::vector<Output> outputs;  // the wanted images, each kept
 };
 
-// What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's file.
+// What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's
+// file.
 struct Estimate {
   double error = 0;    // relative RMSE of beauty
   double seconds = 0;  // of a warm frame on the CPU of docs/RESULTS.md
