@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 #include <chrono>
 #include <cstdio>
+#include <tuple>
 
 #include "app/command.h"
 #include "common/scene/temporary_file.h"
