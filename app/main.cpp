@@ -78,7 +78,7 @@ void add_scene_flags(CLI::App& command, Flags& f) {
       ->allow_extra_args(false);
   command
       .add_option("--aov", f.render.aovs,
-                  "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
+                  "more images, separated by commas: surface, surface.direct, surface.indirect, surface.ambient, transmittance, "
                   "airlight, airlight.LIGHT, depth, normal, optical_depth")
       ->delimiter(',');
   command.add_option("--resolution", f.resolution, "WIDTHxHEIGHT instead of the camera's");

@@ -8,13 +8,15 @@
 #include "common/algorithms/compose.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/shadow_planes.h"
+#include "common/algorithms/surface_airlight.h"
 #include "common/algorithms/surface_shading.h"
 #include "common/algorithms/surface_visibility.h"
 #include "common/algorithms/view_transmittance.h"
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceShading, HomogeneousAirlight, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
+                               HomogeneousAirlight, Compose>;
 
 struct Step {
   Algorithm what;

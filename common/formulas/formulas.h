@@ -6,3 +6,4 @@
 #include "common/formulas/reflection.h"
 #include "common/formulas/grid.h"
 #include "common/formulas/airlight.h"
+#include "common/formulas/surface_airlight.h"

@@ -6,6 +6,7 @@
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/shadow_volumes.h"
+#include "common/plan/surface_airlight_tables.h"
 
 namespace airlight {
 
@@ -92,7 +93,8 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     volumes_id = 6,
     scattered_id = 7,
     lit_id = 8,
-    first_image_id = 9
+    indirect_tables_id = 9,
+    first_image_id = 10
   };
   Plan plan;
   const Medium& medium = scene.medium;
@@ -172,11 +174,45 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                           .transmittance = transmittance,
                                           .optical_depth = optical_depth},
                         "how much of it comes through the fog"});
+  // Section 3-C: light scattered once on its way to the surfaces.
+  Image indirect;
+  const bool has_indirect = scatters && !lights.empty() && !scene.surfaces.empty();
+  if (has_indirect && request.knobs.choice("indirect") == "unbounded") {
+    indirect = images.make("surface.indirect", Format::rgb32f);
+    const std::vector<Material> materials = materials_of(scene);
+    const std::vector<float> shininess = shininess_of(materials);
+    Hash key;
+    key.add(std::string_view("surface airlight"));
+    key.add(medium.phase);
+    key.add(shininess);
+    const Buffer indirect_tables{{indirect_tables_id}, 0};
+    plan.uploads.push_back({indirect_tables, key.value(), [phase = medium.phase, shininess] {
+                              const std::vector<float> values = surface_airlight_tables(phase, shininess);
+                              const auto bytes = std::as_bytes(std::span(values));
+                              return std::vector<std::byte>(bytes.begin(), bytes.end());
+                            }});
+    plan.steps.push_back({SurfaceAirlight{.distance = distance,
+                                          .normal = normal,
+                                          .material = material,
+                                          .transmittance = transmittance,
+                                          .tables = indirect_tables,
+                                          .materials = materials,
+                                          .lights = lights,
+                                          .view = view,
+                                          .extinction = extinction,
+                                          .albedo = medium.albedo,
+                                          .indirect = indirect},
+                          "light scattered once on its way to the surfaces"});
+  } else {
+    plan.skips.push_back(
+        {"indirect single scattering", !has_indirect ? "no light, no surface or nothing scatters" : "indirect = off"});
+  }
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
                                        .transmittance = transmittance,
                                        .light_transmittance = lit,
+                                       .indirect = indirect,
                                        .materials = materials_of(scene),
                                        .lights = lights,
                                        .view = view,
@@ -235,6 +271,14 @@ Technique shadow_planes() {
        .most = 0,
        .choices = {"on", "off"},
        .meaning = "shadows of the casters, in the medium and on surfaces",
+       .sweep = {}},
+      {.name = "indirect",
+       .kind = Knob::Kind::choice,
+       .standard = "unbounded",
+       .least = 0,
+       .most = 0,
+       .choices = {"unbounded", "off"},
+       .meaning = "light scattered once on its way to surfaces, as of an unbounded medium without shadows",
        .sweep = {}}};
   t.refuses = refuses;
   t.plan = plan;
