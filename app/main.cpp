@@ -80,7 +80,7 @@ void add_scene_flags(CLI::App& command, Flags& f) {
       ->allow_extra_args(false);
   command
       .add_option("--aov", f.render.aovs,
-                  "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
+                  "more images, separated by commas: surface, surface.direct, surface.indirect, surface.ambient, transmittance, "
                   "airlight, airlight.LIGHT, depth, normal, optical_depth")
       ->delimiter(',');
   command.add_option("--error", f.error, "choose technique and settings for at most this relative RMSE: 1% or 0.01");

@@ -91,6 +91,7 @@ class StepRunner {
 void run(const SurfaceVisibility&, StepRunner&, const Progress&);
 void run(const ShadowPlanes&, StepRunner&, const Progress&);
 void run(const ViewTransmittance&, StepRunner&, const Progress&);
+void run(const SurfaceAirlight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);

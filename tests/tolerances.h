@@ -30,6 +30,10 @@ inline constexpr Tolerance tolerances[] = {
      "CPU and GL round projected vertices to 1/256 pixel from differently rounded floats: pixels on an edge may see the other "
      "side"},
     {"truth_off_edges", 0.001, "relative RMSE of shadow-planes off edges: single precision and interpolated tables"},
+    {"truth_surface_off_edges", 0.0025,
+     "of the surfaces alone, 0.0001 but for one pixel: a sliver seen edge-on, narrower than 1/100 pixel, hides from the eight "
+     "points "
+     "by which the truth finds edges"},
     {"truth_everywhere", 0.01,
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
     {"truth_marching", 0.015, "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
@@ -47,6 +51,11 @@ inline constexpr Tolerance tolerances[] = {
     {"grid_depth", 1e-8, "optical depth: midpoint sums of a field with kinks at every cell, in steps of less than 1/2000 cell"},
     {"grid_riemann_sum", 2e-5,
      "relative: midpoint sums of 1500 steps of 6 mm through cells of 0.3 m with kinks, and of 600 to each light"},
+    {"surface_airlight", 1e-3, "relative; cubic interpolation of 48 x 128 tables, shininess 1 to 1000"},
+    {"surface_airlight_double", 1e-5,
+     "relative; the quadrature that serves as truth for whole pictures, against the high-precision table"},
+    {"surface_airlight_quadrature", 3e-3,
+     "relative; 3e-5 but for a backward peak (g = -0.4) under a lobe of shininess 1000: there the nodes of the angle lie widest"},
     {"exact_double", 1e-14, "relative; a few roundings of a double"},
     {"exact_float", 2e-7, "relative; one or two roundings of a float"},
     {"float_ulp_of_double", 1e-6, "ULP of a float: exp_ and log_ in double are the C library's"},

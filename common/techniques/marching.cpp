@@ -7,6 +7,7 @@
 
 #include "common/plan/geometry.h"
 #include "common/plan/images.h"
+#include "common/plan/indirect.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -23,7 +24,14 @@ std::optional<std::string> refuses(const Scene& scene) {
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { geometry_id = 1, voxels_id = 4, per_light_id = 5, light_transmittance_id = 6, first_image_id = 7 };
+  enum : std::uint32_t {
+    geometry_id = 1,
+    voxels_id = 4,
+    per_light_id = 5,
+    light_transmittance_id = 6,
+    indirect_tables_id = 7,
+    first_image_id = 8
+  };
   Plan plan;
   const Medium& medium = scene.medium;
   const View view = view_of(scene, request);
@@ -106,11 +114,16 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                      .light_transmittance = light_transmittance},
                           "what of each light reaches the surfaces"});
   }
+  SurfaceAirlight given;
+  given.distance = distance, given.normal = normal, given.material = material, given.transmittance = transmittance;
+  given.lights = lights, given.view = view;
+  const Image indirect = add_indirect(scene, request, given, indirect_tables_id, images, plan);
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
                                        .transmittance = transmittance,
                                        .light_transmittance = light_transmittance,
+                                       .indirect = indirect,
                                        .materials = materials_of(scene),
                                        .lights = lights,
                                        .view = view,
@@ -174,41 +187,40 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   const bool marched = knobs.choice("shadow") == "march";
   const bool lamps =
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const LightSource& l) { return l.type == LightType::point; });
-});
-const double lights = static_cast<double>(scene.lights.size());
-const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
-double error = 3e-5, nanoseconds = 12 + 4 * lights;
-const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
-if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
-if (medium.extinction > 0) {
-  const double tau = std::min(medium.extinction * view, 80.0);
-  const double x = (1 + medium.extinction * lamp) * std::log1p(tau) / n;
-  error += 0.25 * x * x;
-  nanoseconds += n * (2 + 10 * lights) * (medium.gaussians.empty() && !medium.grid ? 1 : 2);
-}
-double near_end = view, far_end = 0, least = 1e30;
-const auto count = static_cast<double>(medium.gaussians.size());
-for (const GaussianDensity& g : gaussians_of(scene)) {
-  const double distance = static_cast<double>(glm::length(g.center)), reach = static_cast<double>(g.reach);
-  near_end = std::min(near_end, std::max(distance - reach, 0.0));
-  far_end = std::max(far_end, distance + reach);
-  least = std::min(least, static_cast<double>(g.radius));
-}
-if (far_end > near_end) {
-  const double length = std::min(far_end, view) - near_end;
-  error += of_uneven(length, least, n);
-  if (marched) error += of_uneven(length, least, light_n);
-  nanoseconds += 0.5 * n * (10 + 10 * lights + count * (3 + lights * (marched ? 4 * light_n : 6)));
-}
-if (medium.grid) {
-  const glm::dvec3 size(medium.grid->voxels->size);
-  const glm::dmat3 frame(medium.grid->transform);
-  const double cell = std::min({glm::length(frame[0]), glm::length(frame[1]), glm::length(frame[2])});
-  const double diagonal = glm::length(frame * size);
-  error += of_uneven(diagonal, grid_scale * cell, n) + of_uneven(diagonal, grid_scale * cell, light_n);
-  nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
-}
-return {error, 1e-9 * nanoseconds* extent.width* extent.height / threads};
+  const double lights = static_cast<double>(scene.lights.size());
+  const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
+  double error = 3e-5, nanoseconds = 12 + 4 * lights;
+  const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
+  if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
+  if (medium.extinction > 0) {
+    const double tau = std::min(medium.extinction * view, 80.0);
+    const double x = (1 + medium.extinction * lamp) * std::log1p(tau) / n;
+    error += 0.25 * x * x;
+    nanoseconds += n * (2 + 10 * lights) * (medium.gaussians.empty() && !medium.grid ? 1 : 2);
+  }
+  double near_end = view, far_end = 0, least = 1e30;
+  const auto count = static_cast<double>(medium.gaussians.size());
+  for (const GaussianDensity& g : gaussians_of(scene)) {
+    const double distance = static_cast<double>(glm::length(g.center)), reach = static_cast<double>(g.reach);
+    near_end = std::min(near_end, std::max(distance - reach, 0.0));
+    far_end = std::max(far_end, distance + reach);
+    least = std::min(least, static_cast<double>(g.radius));
+  }
+  if (far_end > near_end) {
+    const double length = std::min(far_end, view) - near_end;
+    error += of_uneven(length, least, n);
+    if (marched) error += of_uneven(length, least, light_n);
+    nanoseconds += 0.5 * n * (10 + 10 * lights + count * (3 + lights * (marched ? 4 * light_n : 6)));
+  }
+  if (medium.grid) {
+    const glm::dvec3 size(medium.grid->voxels->size);
+    const glm::dmat3 frame(medium.grid->transform);
+    const double cell = std::min({glm::length(frame[0]), glm::length(frame[1]), glm::length(frame[2])});
+    const double diagonal = glm::length(frame * size);
+    error += of_uneven(diagonal, grid_scale * cell, n) + of_uneven(diagonal, grid_scale * cell, light_n);
+    nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
+  }
+  return {error, 1e-9 * nanoseconds * extent.width * extent.height / threads};
 }
 
 }  // namespace
@@ -238,7 +250,8 @@ Technique marching() {
               .standard = "analytic",
               .choices = {"analytic", "march"},
               .meaning = "how the light's way through Gaussians is attenuated",
-              .sweep = {"analytic", "march"}}};
+              .sweep = {"analytic", "march"}},
+             indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

@@ -6,6 +6,7 @@
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/images.h"
+#include "common/plan/indirect.h"
 #include "common/plan/shadow_volumes.h"
 
 namespace airlight {
@@ -56,7 +57,8 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     volumes_id = 6,
     scattered_id = 7,
     lit_id = 8,
-    first_image_id = 9
+    indirect_tables_id = 9,
+    first_image_id = 10
   };
   Plan plan;
   const Medium& medium = scene.medium;
@@ -136,11 +138,17 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                           .transmittance = transmittance,
                                           .optical_depth = optical_depth},
                         "how much of it comes through the fog"});
+  // Section 3-C: light scattered once on its way to the surfaces.
+  SurfaceAirlight given;
+  given.distance = distance, given.normal = normal, given.material = material, given.transmittance = transmittance;
+  given.lights = lights, given.view = view;
+  const Image indirect = add_indirect(scene, request, given, indirect_tables_id, images, plan);
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
                                        .transmittance = transmittance,
                                        .light_transmittance = lit,
+                                       .indirect = indirect,
                                        .materials = materials_of(scene),
                                        .lights = lights,
                                        .view = view,
@@ -215,7 +223,8 @@ Technique shadow_planes() {
        .most = 0,
        .choices = {"on", "off"},
        .meaning = "shadows of the casters, in the medium and on surfaces",
-       .sweep = {}}};
+       .sweep = {}},
+      indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

@@ -94,8 +94,8 @@ std::span<const Technique> techniques();
 // Throws InputError naming the known ones.
 const Technique& technique(std::string_view name);
 
-// Every image that the scene can give: beauty surface surface.direct surface.ambient transmittance airlight airlight.<light>
-// depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
+// Every image that the scene can give: beauty surface surface.direct surface.indirect surface.ambient transmittance airlight
+// airlight.<light> depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
 std::vector<std::string> image_names(const Scene&);
 std::string light_image_name(const Scene&, std::size_t light);
 int image_channels(std::string_view name);
