@@ -19,7 +19,7 @@ def settings(scene):
 
 
 def render(scene, setting, width, height, folder):
-    """(seconds of the render call, image)"""
+    """(seconds of the render call, CPU seconds of its threads, image)"""
     job, image = os.path.join(folder, "cycles.json"), os.path.join(folder, "cycles.exr")
     for name in (image, image + ".txt"):
         if os.path.exists(name):
@@ -34,4 +34,4 @@ def render(scene, setting, width, height, folder):
     if not os.path.exists(image + ".txt"):
         raise RuntimeError((done.stdout + done.stderr)[-1500:])
     with open(image + ".txt") as file:
-        return float(file.read()), read_exr(image)
+        return *map(float, file.read().split()), read_exr(image)

@@ -128,9 +128,9 @@ scene.render.filepath = job["image"]
 scene.render.resolution_percentage, cycles.samples = 10, 1
 bpy.ops.render.render()
 scene.render.resolution_percentage, cycles.samples = 100, job["samples"]
-start = time.perf_counter()
+start, used = time.perf_counter(), time.process_time()
 bpy.ops.render.render()
-seconds = time.perf_counter() - start
+seconds, used = time.perf_counter() - start, time.process_time() - used
 bpy.data.images["Render Result"].save_render(job["image"])
 with open(job["image"] + ".txt", "w") as file:
-    file.write(f"{seconds}\n")
+    file.write(f"{seconds} {used}\n")

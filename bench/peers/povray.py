@@ -48,7 +48,7 @@ def text(scene, method, intervals, samples):
 
 
 def render(scene, setting, width, height, folder):
-    """(seconds of tracing, image)"""
+    """(seconds of tracing, CPU seconds of its threads, image)"""
     name, image = os.path.join(folder, "scene.pov"), os.path.join(folder, "povray.exr")
     with open(name, "w") as file:
         file.write(text(scene, *setting))
@@ -56,7 +56,7 @@ def render(scene, setting, width, height, folder):
         os.remove(image)
     done = subprocess.run(["povray", "+I" + name, "+O" + image, "+FE", f"+W{width}", f"+H{height}", "-D", "-A", "+WT2"],
                           capture_output=True, text=True)
-    seconds = re.findall(r"Trace Time:.*\(([0-9.]+) seconds\)", done.stderr)
+    seconds = re.findall(r"Trace Time:.*\(([0-9.]+) seconds\)\s+using \d+ thread\(s\) with ([0-9.]+) CPU-seconds", done.stderr)
     if not seconds or not os.path.exists(image):  # not by the exit status: with functions it may crash after the last line
         raise RuntimeError(done.stderr[-1500:])
-    return float(seconds[-1]), read_exr(image)
+    return *map(float, seconds[-1]), read_exr(image)
