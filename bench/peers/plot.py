@@ -16,7 +16,7 @@ def draw(rows, front, path):
     columns = min(3, len(rows))
     lines = (len(rows) + columns - 1) // columns
     matplotlib.rcParams["svg.hashsalt"] = "airlight"
-    figure, axes = pyplot.subplots(lines, columns, figsize=(4.6 * columns, 3.8 * lines), squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(lines, columns, figsize=(4.6 * columns, 3.8 * lines), squeeze=False)
     handles = {}
     mine = sorted({family for _, _, ours in rows for family in ours})
     for axis, (name, peers, ours) in zip(axes.flat, rows):
@@ -34,6 +34,7 @@ def draw(rows, front, path):
             axis.axhline(goal, color="grey", linewidth=0.6, linestyle="--")
     for axis in list(axes.flat)[len(rows):]:
         axis.set_visible(False)
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4, fontsize=8, frameon=False)
+    figure.tight_layout(rect=(0, 0.8 / (3.8 * lines), 1, 1))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=columns + 1, fontsize=8, frameon=False)
     figure.savefig(path + ".svg", metadata={"Date": None})
     figure.savefig(path + ".png", dpi=110)
