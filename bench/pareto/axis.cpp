@@ -26,7 +26,7 @@ std::vector<Tick> ticks(const LogAxis& axis) {
     for (int digit = 1; digit < 10; ++digit) {
       // By division below 1: 3 / 1000 is the double that reads 0.003.
       const double value = exponent < 0 ? digit / std::pow(10, -exponent) : digit * std::pow(10, exponent);
-      if (value < axis.least || value > axis.most) continue;
+      if (value < axis.least || value > axis.most || (digit > 1 && decades > 5)) continue;
       const bool has_number = numbered.find(static_cast<char>('0' + digit)) != std::string::npos;
       all.push_back({value, has_number ? fmt::format("{:g}", value) : std::string(), digit == 1});
     }

@@ -22,8 +22,8 @@ struct Tick {
   bool power = false;  // of ten
 };
 
-// At 1 to 9 times each power of ten within the axis; numbers at as many of them as leave room: all of 1 2 3 5 7 on a short axis,
-// powers of ten alone on a long one.
+// At 1 to 9 times each power of ten within the axis, or at powers of ten alone on a very long one; numbers at as many of them as
+// leave room.
 std::vector<Tick> ticks(const LogAxis&);
 
 }  // namespace airlight

@@ -11,7 +11,7 @@ namespace {
 // Left, centre and right of the point, above, beside and below it, one ring of places after the other.
 std::vector<Box> places(const Label& l) {
   std::vector<Box> all;
-  for (int ring = 0; ring < 7; ++ring) {
+  for (int ring = 0; ring < 5; ++ring) {
     const double apart = 7 + 11 * ring;  // [pixel] from the point to the text
     const std::array<double, 2> sides{l.x + apart * 0.8, l.x - apart * 0.8 - l.width};
     const std::array<double, 2> levels{l.y - apart - l.height * 0.6, l.y + apart - l.height * 0.4};

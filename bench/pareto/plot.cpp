@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
-#include <set>
+#include <utility>
 
 #include "bench/pareto/axis.h"
 #include "bench/pareto/canvas.h"
@@ -47,7 +48,7 @@ class Drawing {
     canvas_.box(0, 0, width, height, grey(1));
     heading();
     axes();
-    for (const auto& device : m_.devices) front(device.first);
+    for (const auto& device : m_.devices) draw_front(device.first);
     for (const bool on_front : {false, true}) {
       for (const Point* p : shown_) {
         if (p->on_front == on_front) marker(*p);
@@ -59,8 +60,10 @@ class Drawing {
 
  private:
   void heading() {
-    canvas_.text(area.x, 24, fmt::format("{}, {} × {} pixels", origin_.scene, origin_.extent.width, origin_.extent.height), 15,
-                 grey(0.1), 0, true);
+    canvas_.text(
+        area.x, 24,
+        fmt::format("{}: time against error at {} × {} pixels", origin_.scene, origin_.extent.width, origin_.extent.height), 15,
+        grey(0.1), 0, true);
     std::string where = origin_.machine;
     for (const auto& device : m_.devices) where += "; " + device.second;
     const double room = width - area.x - 12, size = 10.5;
@@ -83,23 +86,27 @@ class Drawing {
     if (shown_.empty()) canvas_.text(area.x + area.width / 2, area.y + 40, "nothing was timed", 13, grey(0.3), 0.5);
   }
 
-  // In steps: what nobody has measured lies in no slope.
-  void front(const std::string& backend) {
-    dashes(backend);
-    cairo_new_path(canvas_.cairo());
-    double y = area.y;
+  // In steps: what nobody has measured lies in no slope. From the top of the axes to their right.
+  std::vector<std::pair<double, double>> front(const std::string& backend) const {
+    std::vector<std::pair<double, double>> corners;
     for (const Point* p : shown_) {
       if (!p->on_front || p->configuration.backend != backend) continue;
-      if (y == area.y) cairo_move_to(canvas_.cairo(), x_(p->ms), y);
-      cairo_line_to(canvas_.cairo(), x_(p->ms), y);
-      y = y_(percent(*p));
-      cairo_line_to(canvas_.cairo(), x_(p->ms), y);
+      corners.emplace_back(x_(p->ms), corners.empty() ? area.y : corners.back().second);
+      corners.emplace_back(x_(p->ms), y_(percent(*p)));
     }
-    if (y != area.y) cairo_line_to(canvas_.cairo(), right, y);
-    cairo_set_source_rgb(canvas_.cairo(), 0.45, 0.45, 0.45);
-    cairo_set_line_width(canvas_.cairo(), 1.3);
-    cairo_stroke(canvas_.cairo());
-    cairo_set_dash(canvas_.cairo(), nullptr, 0, 0);
+    if (!corners.empty()) corners.emplace_back(right, corners.back().second);
+    return corners;
+  }
+
+  void draw_front(const std::string& backend) {
+    cairo_t* cairo = canvas_.cairo();
+    dashes(backend);
+    cairo_new_path(cairo);
+    for (const auto& [x, y] : front(backend)) cairo_line_to(cairo, x, y);
+    cairo_set_source_rgb(cairo, 0.45, 0.45, 0.45);
+    cairo_set_line_width(cairo, 1.3);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, nullptr, 0, 0);
   }
 
   void dashes(const std::string& backend) {
@@ -141,7 +148,17 @@ class Drawing {
       texts.push_back(label_of(*p));
       wanted.push_back({x, y, canvas_.text_width(texts.back(), label_size) + 4, label_size + 2});
     }
-    const std::vector<std::optional<Box>> boxes = placed(wanted, taken, area);
+    for (const auto& device : m_.devices) {
+      const std::vector<std::pair<double, double>> corners = front(device.first);
+      for (std::size_t i = 1; i < corners.size(); ++i) {
+        const auto& [x0, y0] = corners[i - 1];
+        const auto& [x1, y1] = corners[i];
+        taken.push_back({std::min(x0, x1), std::min(y0, y1), std::fabs(x1 - x0) + 1, std::fabs(y1 - y0) + 1});
+      }
+    }
+    taken.push_back({right + 4, 0, width, area.y + legend_height()});
+    // They may stand beyond the axes, below the legend.
+    const std::vector<std::optional<Box>> boxes = placed(wanted, taken, {area.x, area.y, width - area.x - 6, area.height});
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       if (!boxes[i] || texts[i].empty()) continue;
       const Box& b = *boxes[i];
@@ -154,6 +171,8 @@ class Drawing {
       canvas_.text(boxes[i]->x + 2, boxes[i]->y + label_size, texts[i], label_size, grey(0.2));
     }
   }
+
+  double legend_height() const { return 21.0 * static_cast<double>(techniques_.size() + 2 * m_.devices.size() + 1) + 24; }
 
   void legend() {
     const double x = right + 22;
@@ -211,6 +230,12 @@ Figure figure_of(const Measurement& m, const Origin& origin) {
     const Owned svg(cairo_svg_surface_create_for_stream(append, &figure.svg, width, height), cairo_surface_destroy);
     draw_on(svg.get(), 1, m, origin);
     cairo_surface_finish(svg.get());
+  }
+  // Cairo numbers its surfaces through the whole process; nothing refers to that number.
+  const std::string name = "id=\"surface";
+  if (const std::size_t at = figure.svg.find(name); at != std::string::npos) {
+    const std::size_t first = at + name.size();
+    figure.svg.erase(first, figure.svg.find('"', first) - first);
   }
   constexpr double scale = 1.5;
   const Owned png(
