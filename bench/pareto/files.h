@@ -4,20 +4,20 @@
 #include <string>
 
 #include "bench/pareto/measure.h"
+#include "bench/pareto/origin.h"
 
 namespace airlight {
 
-// What was measured where, for the head of a file.
-struct Origin {
-  std::string scene, commit, machine;
-  Extent extent, truth_extent;
-};
-
-// "AMD EPYC, 2 cores"
-std::string machine_name();
-
-// A row a configuration: scene, technique, backend, knobs, error, error_off_edges, ms, small_ms, on_front.
+// A header, then a row a configuration: scene, technique, backend, a column for each knob that is swept, error, error_off_edges
+// (ratios), ms, small_ms, on_front (0 or 1). Empty: a knob that the technique does not have, a time that was not measured.
 std::string csv_of(const Measurement&, const Origin&);
+
+// The same with its origin and with what was left out.
 std::string json_of(const Measurement&, const Origin&);
+
+// Quoted where RFC 4180 asks for it.
+std::string csv_field(const std::string&);
+// With its quotes; RFC 8259.
+std::string json_string(const std::string&);
 
 }  // namespace airlight

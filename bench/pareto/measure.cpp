@@ -1,176 +1,127 @@
 #include "bench/pareto/measure.h"
 
-#include <algorithm>
-#include <chrono>
-#include <map>
+#include <fmt/format.h>
 
-#include "app/airlight.h"
+#include <algorithm>
+
+#include "bench/pareto/frames.h"
 
 namespace airlight {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr double slack = 1.5;  // of near_front()
+constexpr int visit = 2;       // timed frames after each one that makes the tables of a configuration
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-// Frames of one scene; each differs a little from the one before, so that nothing of it is held already.
-class Frames {
- public:
-  Frames(const Scene& scene, const MeasureOptions& options) : scene_(scene), options_(options) {}
-
-  // Empty if the backend cannot start.
-  std::string start(const std::string& backend, std::string& why_not) {
-    try {
-      const auto made = renderers_.try_emplace(backend, Renderer({.backend = backend, .threads = options_.threads}));
-      return made.first->second.describe();
-    } catch (const MachineError& error) {
-      why_not = error.what();
-      return {};
-    }
-  }
-
-  HostImage exact(const Configuration& c, Extent extent, Progress& progress) {
-    return renderers_.at(c.backend).render(scene_, settings(c, extent), progress).image("beauty");
-  }
-
-  double milliseconds(const Configuration& c, Extent extent, Progress& progress) {
-    Scene changed = scene_;
-    const double factor = 1 + 1e-6 * static_cast<double>(++count_ % 1000 + 1);
-    for (LightSource& l : changed.lights) l.power *= factor;
-    changed.medium.ambient *= factor;
-    changed.medium.emission *= factor;
-    changed.background *= factor;
-    const Clock::time_point start = Clock::now();
-    renderers_.at(c.backend).render(changed, settings(c, extent), progress);
-    return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
- private:
-  static RenderSettings settings(const Configuration& c, Extent extent) {
-    RenderSettings s;
-    s.technique = c.technique;
-    s.knobs = c.knobs;
-    s.resolution = extent;
-    return s;
-  }
-
-  const Scene& scene_;
-  const MeasureOptions& options_;
-  std::map<std::string, Renderer> renderers_;
-  std::uint64_t count_ = 0;
-};
-
-std::vector<Configuration> configurations(const Scene& scene, const MeasureOptions& options,
-                                          const std::vector<std::string>& backends, std::vector<std::string>& left_out) {
-  std::vector<Configuration> all;
-  for (const Technique& t : techniques()) {
-    const auto& asked = options.techniques;
-    if (!t.plan || (!asked.empty() && std::find(asked.begin(), asked.end(), t.name) == asked.end())) continue;
-    if (const auto why = t.refuses(scene)) {
-      left_out.push_back(std::string(t.name) + ": " + *why);
-      continue;
-    }
-    for (const Settings& settings : different_settings(t, scene, options.extent)) {
-      for (const std::string& backend : backends) all.push_back({std::string(t.name), backend, settings});
-    }
-  }
+std::string joined_lines(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += (all.empty() ? "" : "; ") + line;
   return all;
 }
 
+double pixels(Extent e) { return static_cast<double>(e.width) * e.height; }
+
+class Run {
+ public:
+  Run(Frames& frames, const MeasureOptions& options, Deadline& deadline, Measurement& m)
+      : frames_(frames), options_(options), deadline_(deadline), m_(m) {}
+
+  void errors(const std::vector<Configuration>& all, const Truth& truth) {
+    for (const Configuration& c : all) {
+      deadline_.report("errors", static_cast<double>(m_.points.size()) / static_cast<double>(all.size()));
+      Point p;
+      p.configuration = c;
+      p.error = relative_error(frames_.exact(c, options_.truth_extent, deadline_), truth);
+      std::vector<double> times;
+      do {
+        times.push_back(frames_.milliseconds(c, options_.truth_extent, deadline_));
+      } while (times.size() < 3 && times[0] < 100);
+      p.small_ms = median(times);
+      m_.points.push_back(p);
+    }
+  }
+
+  void times() {
+    times_.resize(m_.points.size());
+    const std::vector<bool> near = options_.everything ? std::vector<bool>(m_.points.size(), true) : near_front(m_.points, slack);
+    for (int round = 0; round * visit < options_.repeats; ++round) {
+      for (std::size_t i = 0; i < m_.points.size(); ++i) {
+        deadline_.report("times",
+                         (round + static_cast<double>(i) / static_cast<double>(m_.points.size())) * visit / options_.repeats);
+        if (near[i]) time(i);
+      }
+    }
+  }
+
+  // The medians of what there is, also after an interruption.
+  void finish() {
+    for (std::size_t i = 0; i < times_.size(); ++i) m_.points[i].ms = median(times_[i]);
+    mark_fronts(m_.points);
+  }
+
+ private:
+  // One visit: a frame that is not counted makes what the configuration before it has replaced, then the counted ones.
+  void time(std::size_t i) {
+    const Configuration& c = m_.points[i].configuration;
+    const double longest = 1e3 * options_.longest;
+    std::vector<double>& times = times_[i];
+    if (!times.empty() && times[0] > longest) return;
+    if (m_.points[i].small_ms * pixels(options_.extent) / pixels(options_.truth_extent) > longest) {
+      frames_.milliseconds(c, options_.truth_extent, deadline_);
+      times.push_back(frames_.milliseconds(c, options_.extent, deadline_));
+      if (times[0] > longest) return;
+    } else {
+      frames_.milliseconds(c, options_.extent, deadline_);
+    }
+    for (int k = 0; k < visit && static_cast<int>(times.size()) < options_.repeats; ++k) {
+      times.push_back(frames_.milliseconds(c, options_.extent, deadline_));
+      if (times[0] > longest) return;
+    }
+  }
+
+  Frames& frames_;
+  const MeasureOptions& options_;
+  Deadline& deadline_;
+  Measurement& m_;
+  std::vector<std::vector<double>> times_;
+};
+
 }  // namespace
 
-Measurement measure(const Scene& scene, const Truth& truth, const MeasureOptions& options, Progress& progress) {
-  const Clock::time_point start = Clock::now();
+Measurement measure(const Scene& scene, const Truth& truth, const MeasureOptions& options, Deadline& deadline) {
   Measurement m;
-  Frames frames(scene, options);
+  Frames frames(scene, options.backends, options.simd, options.threads);
+  m.devices = frames.devices();
+  m.left_out = frames.not_started();
   std::vector<std::string> backends;
-  for (const std::string& backend : options.backends) {
-    std::string why_not;
-    const std::string device = frames.start(backend, why_not);
-    if (device.empty()) {
-      m.left_out.push_back(backend + ": " + why_not);
-    } else {
-      backends.push_back(backend);
-      m.devices.push_back(device);
-    }
+  for (const std::string& b : options.backends) {
+    if (m.devices.contains(b) && std::find(backends.begin(), backends.end(), b) == backends.end()) backends.push_back(b);
   }
-  const std::vector<Configuration> all = configurations(scene, options, backends, m.left_out);
+  if (backends.empty()) throw MachineError("no backend starts: " + joined_lines(m.left_out));
+  std::vector<std::string> refused;
+  const std::vector<Configuration> all = configurations(scene, options.extent, options.techniques, backends, refused);
+  if (all.empty()) throw InputError("no technique renders it: " + joined_lines(refused));
+  m.left_out.insert(m.left_out.end(), refused.begin(), refused.end());
 
-  // Every configuration at the size of the truth: its error, and what it costs beside the others.
-  for (const Configuration& c : all) {
-    progress.report("errors", static_cast<double>(m.points.size()) / static_cast<double>(all.size()));
-    Point p{c, relative_error(frames.exact(c, options.truth_extent, progress), truth)};
-    std::vector<double> times;
-    for (int i = 0; i < 3; ++i) {
-      times.push_back(frames.milliseconds(c, options.truth_extent, progress));
-      if (times[0] > 200) break;
-    }
-    p.small_ms = median(times);
-    m.points.push_back(p);
+  Run run(frames, options, deadline, m);
+  try {
+    run.errors(all, truth);
+    run.times();
+  } catch (const Interrupted&) {
+    if (!deadline.passed()) throw;
+    m.left_out.push_back(m.points.size() < all.size()
+                             ? fmt::format("{} of {} configurations: the time is over", all.size() - m.points.size(), all.size())
+                             : std::string("rounds of timed frames: the time is over"));
   }
-
-  // Those near a front at full size, one frame of each in turn: what disturbs the machine hits all alike. The frame before each
-  // one makes the tables of its configuration.
-  const std::vector<bool> worth = near_front(m.points, options.everything ? 0 : 0.6);
-  const double growth = static_cast<double>(options.extent.width) * options.extent.height /
-                        (static_cast<double>(options.truth_extent.width) * options.truth_extent.height);
-  std::vector<std::vector<double>> times(m.points.size());
-  for (int round = 0; round < options.repeats; ++round) {
-    if (round > 0 && std::chrono::duration<double>(Clock::now() - start).count() > options.limit) break;
-    for (std::size_t i = 0; i < m.points.size(); ++i) {
-      progress.report("times", (round + static_cast<double>(i) / static_cast<double>(m.points.size())) / options.repeats);
-      const bool slow = m.points[i].small_ms * growth > 1e3 * options.longest;
-      if (!worth[i] || (slow && round > 0)) continue;
-      const Configuration& c = m.points[i].configuration;
-      if (!slow) frames.milliseconds(c, options.extent, progress);
-      times[i].push_back(frames.milliseconds(c, options.extent, progress));
-    }
-  }
-  for (std::size_t i = 0; i < m.points.size(); ++i) m.points[i].ms = median(times[i]);
-  mark_fronts(m.points);
+  run.finish();
   return m;
-}
-
-void mark_fronts(std::vector<Point>& points) {
-  for (Point& p : points) {
-    p.on_front = p.ms > 0 && std::none_of(points.begin(), points.end(), [&](const Point& other) {
-                   return other.configuration.backend == p.configuration.backend && other.ms > 0 && other.ms <= p.ms &&
-                          other.error.everywhere <= p.error.everywhere &&
-                          (other.ms < p.ms || other.error.everywhere < p.error.everywhere);
-                 });
-  }
-}
-
-std::vector<bool> near_front(const std::vector<Point>& points, double part) {
-  std::vector<bool> near;
-  for (const Point& p : points) {
-    near.push_back(std::none_of(points.begin(), points.end(), [&](const Point& other) {
-      return other.configuration.backend == p.configuration.backend && other.small_ms < part * p.small_ms &&
-             other.error.everywhere <= p.error.everywhere;
-    }));
-  }
-  return near;
-}
-
-const Point* cheapest_within_error(const std::vector<Point>& points, double error) {
-  const Point* best = nullptr;
-  for (const Point& p : points) {
-    if (p.ms > 0 && p.error.everywhere <= error && (!best || p.ms < best->ms)) best = &p;
-  }
-  return best;
-}
-
-const Point* best_within_time(const std::vector<Point>& points, double ms) {
-  const Point* best = nullptr;
-  for (const Point& p : points) {
-    if (p.ms > 0 && p.ms <= ms && (!best || p.error.everywhere < best->error.everywhere)) best = &p;
-  }
-  return best;
 }
 
 }  // namespace airlight

@@ -1,49 +1,35 @@
-// Time and error of configurations.
+// Time and error of every configuration of a scene.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
-#include "bench/pareto/sweep.h"
+#include "bench/pareto/deadline.h"
+#include "bench/pareto/front.h"
 #include "bench/pareto/truth.h"
 
 namespace airlight {
 
 struct MeasureOptions {
   std::vector<std::string> backends{"cpu", "gl"}, techniques;  // techniques: all that support the scene where it is empty
+  std::string simd = "auto";
   Extent extent, truth_extent{160, 120};
   int threads = 0;          // 0: as many as there are
-  int repeats = 5;          // counted frames of each
+  int repeats = 5;          // timed frames of each
   double longest = 2;       // [s] a frame that takes longer is timed once
-  double limit = 1e30;      // [s] no further round of frames begins after it
   bool everything = false;  // time every configuration at full size, not only those near a front
 };
 
-struct Point {
-  Configuration configuration;
-  RelativeError error;    // at truth_extent
-  double small_ms = 0;    // median frame at truth_extent
-  double ms = 0;          // median frame at extent; 0: not timed there
-  bool on_front = false;  // of its backend: nothing is both faster and nearer to the truth
-};
-
 struct Measurement {
-  std::vector<Point> points;
-  std::vector<std::string> devices;   // of the backends that ran
-  std::vector<std::string> left_out;  // techniques and backends that cannot, with their reason
+  std::vector<Point> points;                   // in the order of the sweep
+  std::map<std::string, std::string> devices;  // backend, Renderer::describe()
+  std::vector<std::string> left_out;           // what could not be measured, each with its reason
 };
 
-Measurement measure(const Scene&, const Truth&, const MeasureOptions&, Progress&);
-
-// Marks what is on the front among the timed points of each backend.
-void mark_fronts(std::vector<Point>&);
-
-// Whether no other configuration of the backend is as good and takes less than a part of the time, at the small size: worth a
-// measurement at full size.
-std::vector<bool> near_front(const std::vector<Point>&, double part);
-
-// The cheapest timed point with at most this error, or the most exact one within this time; null where there is none.
-const Point* cheapest_within_error(const std::vector<Point>&, double error);
-const Point* best_within_time(const std::vector<Point>&, double ms);
+// First the error of every configuration and its time at the truth's size; then, of those near a front, the time at full size:
+// one visit after the other, again and again, so that what else the machine does hits all alike. When the deadline comes, what
+// has been measured is given back. Throws MachineError where no backend starts, InputError where no technique renders the scene.
+Measurement measure(const Scene&, const Truth&, const MeasureOptions&, Deadline&);
 
 }  // namespace airlight

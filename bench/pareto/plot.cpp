@@ -5,121 +5,113 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <memory>
-#include <numbers>
+#include <utility>
 
-#include "common/error.h"
+#include "bench/pareto/axis.h"
+#include "bench/pareto/canvas.h"
+#include "bench/pareto/labels.h"
 
 namespace airlight {
 
 namespace {
 
-constexpr double width = 900, height = 620;
-constexpr double left = 86, right = 24, top = 52, bottom = 64;
+constexpr double width = 900, height = 560;                      // [pixel]
+constexpr Box area{84, 64, width - 84 - 176, height - 64 - 62};  // inside the axes
+constexpr double right = area.x + area.width, bottom = area.y + area.height;
+constexpr double label_size = 10.5, least_percent = 1e-7;  // float cannot tell less
 
-struct Colour {
-  double r, g, b;
-};
-constexpr Colour colours[] = {{0.12, 0.38, 0.67}, {0.85, 0.37, 0.05}, {0.18, 0.53, 0.25}, {0.55, 0.24, 0.57}, {0.65, 0.55, 0.1}};
+// Okabe and Ito's colours, which colour-blind readers tell apart.
+constexpr Colour colours[] = {{0, 0.447, 0.698}, {0.835, 0.369, 0}, {0, 0.62, 0.451}, {0.8, 0.475, 0.655}, {0.337, 0.706, 0.914}};
 
-// A logarithmic axis from one power of ten (or its double or fivefold) to another.
-struct Axis {
-  double least, most, from, to;  // values, and their places [pixel]
-  double operator()(double v) const { return from + (to - from) * std::log(v / least) / std::log(most / least); }
-};
+double percent(const Point& p) { return std::max(100 * p.error.everywhere, least_percent); }
 
-Axis axis_over(double least, double most, double from, double to) {
-  const auto down = [](double v) {
-    const double ten = std::pow(10, std::floor(std::log10(v) + 1e-9));
-    return v >= 5 * ten ? 5 * ten : v >= 2 * ten ? 2 * ten : ten;
-  };
-  const double low = down(least * 0.8), high = most * 1.4;
-  return {low, std::max(high, low * 10), from, to};
-}
-
-class Figure {
+class Drawing {
  public:
-  Figure(cairo_t* cairo, const Measurement& m, const std::string& title) : c_(cairo), m_(m), title_(title) {}
+  Drawing(cairo_t* cairo, const Measurement& m, const Origin& origin) : canvas_(cairo), m_(m), origin_(origin) {
+    std::vector<double> times, errors;
+    for (const Point& p : m.points) {
+      if (std::find(techniques_.begin(), techniques_.end(), p.configuration.technique) == techniques_.end())
+        techniques_.push_back(p.configuration.technique);
+      if (p.ms <= 0 || !(percent(p) < 1e30)) continue;
+      shown_.push_back(&p);
+      times.push_back(p.ms);
+      errors.push_back(percent(p));
+    }
+    if (shown_.empty()) return;
+    x_ = axis_over(times, area.x, right);
+    y_ = axis_over(errors, bottom, area.y);
+    std::stable_sort(shown_.begin(), shown_.end(), [](const Point* a, const Point* b) { return a->ms < b->ms; });
+  }
 
   void draw() {
-    double fastest = 1e300, slowest = 0, best = 1e300, worst = 0;
-    for (const Point& p : m_.points) {
-      if (!shown(p)) continue;
-      fastest = std::min(fastest, p.ms), slowest = std::max(slowest, p.ms);
-      best = std::min(best, percent(p)), worst = std::max(worst, percent(p));
-      const std::string& t = p.configuration.technique;
-      if (std::find(techniques_.begin(), techniques_.end(), t) == techniques_.end()) techniques_.push_back(t);
-      if (std::find(backends_.begin(), backends_.end(), p.configuration.backend) == backends_.end())
-        backends_.push_back(p.configuration.backend);
-    }
-    cairo_set_source_rgb(c_, 1, 1, 1);
-    cairo_paint(c_);
-    cairo_select_font_face(c_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    text(left, 24, title_, 17, 0.1);
-    if (techniques_.empty()) {
-      text(left, top + 30, "no technique of this version renders this scene", 14, 0.3);
-      return;
-    }
-    x_ = axis_over(fastest, slowest, left, width - right);
-    y_ = axis_over(best, worst, height - bottom, top);
+    canvas_.box(0, 0, width, height, grey(1));
+    heading();
     axes();
-    fronts();
-    for (const Point& p : m_.points) {
-      if (shown(p)) marker(x_(p.ms), y_(percent(p)), p, 1);
+    for (const auto& device : m_.devices) draw_front(device.first);
+    for (const bool on_front : {false, true}) {
+      for (const Point* p : shown_) {
+        if (p->on_front == on_front) marker(*p);
+      }
     }
     labels();
     legend();
   }
 
  private:
-  static double percent(const Point& p) { return 100 * std::max(p.error.everywhere, 1e-8); }
-  static bool shown(const Point& p) { return p.ms > 0; }
-
-  void text(double x, double y, const std::string& s, double size, double grey, double align = 0) {
-    cairo_set_font_size(c_, size);
-    cairo_text_extents_t extents;
-    cairo_text_extents(c_, s.c_str(), &extents);
-    cairo_set_source_rgb(c_, grey, grey, grey);
-    cairo_move_to(c_, x - align * extents.x_advance, y);
-    cairo_show_text(c_, s.c_str());
-  }
-
-  void line(double x0, double y0, double x1, double y1, double grey, double line_width) {
-    cairo_set_source_rgb(c_, grey, grey, grey);
-    cairo_set_line_width(c_, line_width);
-    cairo_move_to(c_, x0, y0);
-    cairo_line_to(c_, x1, y1);
-    cairo_stroke(c_);
-  }
-
-  // Lines at 1, 2, ... 9 of each power of ten; numbers at 1, 2 and 5 where the axis is short, else at 1.
-  template <class Tick>
-  static void ticks(const Axis& axis, const Tick& tick) {
-    const bool short_axis = axis.most / axis.least < 400;
-    for (double ten = std::pow(10, std::floor(std::log10(axis.least))); ten <= axis.most; ten *= 10) {
-      for (int k = 1; k < 10; ++k) {
-        const double v = k * ten;
-        if (v < axis.least * 0.999 || v > axis.most) continue;
-        tick(v, k == 1, k == 1 || (short_axis && (k == 2 || k == 5)));
-      }
-    }
+  void heading() {
+    canvas_.text(
+        area.x, 24,
+        fmt::format("{}: time against error at {} × {} pixels", origin_.scene, origin_.extent.width, origin_.extent.height), 15,
+        grey(0.1), 0, true);
+    std::string where = origin_.machine;
+    for (const auto& device : m_.devices) where += "; " + device.second;
+    const double room = width - area.x - 12, size = 10.5;
+    canvas_.text(area.x, 43, where, std::min(size, size * room / canvas_.text_width(where, size)), grey(0.4));
   }
 
   void axes() {
-    ticks(x_, [&](double v, bool whole, bool numbered) {
-      line(x_(v), top, x_(v), height - bottom, whole ? 0.8 : 0.93, 1);
-      if (numbered) text(x_(v), height - bottom + 19, fmt::format("{:g}", v), 13, 0.25, 0.5);
-    });
-    ticks(y_, [&](double v, bool whole, bool numbered) {
-      line(left, y_(v), width - right, y_(v), whole ? 0.8 : 0.93, 1);
-      if (numbered) text(left - 8, y_(v) + 4, fmt::format("{:g} %", v), 13, 0.25, 1);
-    });
-    line(left, top, left, height - bottom, 0.3, 1.2);
-    line(left, height - bottom, width - right, height - bottom, 0.3, 1.2);
-    text((left + width - right) / 2, height - 18, "frame time [ms]", 14, 0.15, 0.5);
-    text(left, top - 10, "relative RMSE", 14, 0.15);
+    for (const Tick& t : ticks(x_)) {
+      canvas_.line(x_(t.value), area.y, x_(t.value), bottom, grey(t.power ? 0.82 : 0.93), 1);
+      canvas_.text(x_(t.value), bottom + 18, t.label, 12, grey(0.2), 0.5);
+    }
+    for (const Tick& t : ticks(y_)) {
+      canvas_.line(area.x, y_(t.value), right, y_(t.value), grey(t.power ? 0.82 : 0.93), 1);
+      canvas_.text(area.x - 8, y_(t.value) + 4, t.label, 12, grey(0.2), 1);
+    }
+    canvas_.line(area.x, area.y, area.x, bottom, grey(0.25), 1.2);
+    canvas_.line(area.x, bottom, right, bottom, grey(0.25), 1.2);
+    canvas_.text(area.x + area.width / 2, bottom + 42, "time of a frame [ms]", 13, grey(0.1), 0.5);
+    canvas_.upward_text(24, area.y + area.height / 2, "error of the image, relative RMSE [%]", 13, grey(0.1));
+    if (shown_.empty()) canvas_.text(area.x + area.width / 2, area.y + 40, "nothing was timed", 13, grey(0.3), 0.5);
+  }
+
+  // In steps: what nobody has measured lies in no slope. From the top of the axes to their right.
+  std::vector<std::pair<double, double>> front(const std::string& backend) const {
+    std::vector<std::pair<double, double>> corners;
+    for (const Point* p : shown_) {
+      if (!p->on_front || p->configuration.backend != backend) continue;
+      corners.emplace_back(x_(p->ms), corners.empty() ? area.y : corners.back().second);
+      corners.emplace_back(x_(p->ms), y_(percent(*p)));
+    }
+    if (!corners.empty()) corners.emplace_back(right, corners.back().second);
+    return corners;
+  }
+
+  void draw_front(const std::string& backend) {
+    cairo_t* cairo = canvas_.cairo();
+    dashes(backend);
+    cairo_new_path(cairo);
+    for (const auto& [x, y] : front(backend)) cairo_line_to(cairo, x, y);
+    cairo_set_source_rgb(cairo, 0.45, 0.45, 0.45);
+    cairo_set_line_width(cairo, 1.3);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, nullptr, 0, 0);
+  }
+
+  void dashes(const std::string& backend) {
+    const double dash[] = {5, 3};
+    cairo_set_dash(canvas_.cairo(), dash, backend == "gl" ? 2 : 0, 0);
   }
 
   Colour colour_of(const std::string& technique) const {
@@ -127,125 +119,133 @@ class Figure {
     return colours[static_cast<std::size_t>(at) % std::size(colours)];
   }
 
-  std::vector<const Point*> front(const std::string& backend) const {
-    std::vector<const Point*> on;
-    for (const Point& p : m_.points) {
-      if (p.on_front && p.configuration.backend == backend) on.push_back(&p);
-    }
-    std::sort(on.begin(), on.end(), [](const Point* a, const Point* b) { return a->ms < b->ms; });
-    return on;
+  void marker(const Point& p) {
+    canvas_.marker(x_(p.ms), y_(percent(p)), p.on_front ? 4.6 : 3.2, p.configuration.backend == "gl", p.on_front,
+                   colour_of(p.configuration.technique));
   }
 
-  void fronts() {
-    for (const std::string& backend : backends_) {
-      const std::vector<const Point*> on = front(backend);
-      cairo_set_source_rgb(c_, 0.45, 0.45, 0.45);
-      cairo_set_line_width(c_, 1.4);
-      for (std::size_t i = 0; i < on.size(); ++i) {
-        const double x = x_(on[i]->ms), y = y_(percent(*on[i]));
-        if (i == 0) cairo_move_to(c_, x, top);
-        cairo_line_to(c_, x, i == 0 ? y : y_(percent(*on[i - 1])));  // only what is measured: steps, no slopes
-        cairo_line_to(c_, x, y);
-      }
-      if (!on.empty()) cairo_line_to(c_, width - right, y_(percent(*on.back())));
-      cairo_stroke(c_);
+  // Only knobs with more than one value among the technique's points tell them apart.
+  std::string label_of(const Point& p) const {
+    std::string text;
+    for (const auto& knob : p.configuration.knobs) {
+      const bool differs = std::any_of(m_.points.begin(), m_.points.end(), [&](const Point& other) {
+        const Configuration& c = other.configuration;
+        return c.technique == p.configuration.technique && std::find(c.knobs.begin(), c.knobs.end(), knob) == c.knobs.end();
+      });
+      if (differs) text += (text.empty() ? "" : ", ") + knob.first + " " + knob.second;
     }
+    return text;
   }
 
-  // Discs for the first backend, squares for the second; hollow off the front.
-  void marker(double x, double y, const Point& p, double alpha) {
-    const Colour k = colour_of(p.configuration.technique);
-    const double r = p.on_front ? 5 : 3.5;
-    cairo_new_sub_path(c_);
-    if (p.configuration.backend == "gl") {
-      cairo_rectangle(c_, x - r, y - r, 2 * r, 2 * r);
-    } else {
-      cairo_arc(c_, x, y, r, 0, 2 * std::numbers::pi);
-    }
-    cairo_set_source_rgba(c_, p.on_front ? k.r : 1, p.on_front ? k.g : 1, p.on_front ? k.b : 1, alpha);
-    cairo_fill_preserve(c_);
-    cairo_set_source_rgb(c_, k.r, k.g, k.b);
-    cairo_set_line_width(c_, 1.3);
-    cairo_stroke(c_);
-  }
-
-  struct Box {
-    double x, y, w, h;
-    bool meets(const Box& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
-  };
-
-  // Front points by their knobs, where there is room: right of the point and above, or left and below.
   void labels() {
+    std::vector<Label> wanted;
+    std::vector<std::string> texts;
     std::vector<Box> taken;
-    for (const Point& p : m_.points) {
-      if (p.on_front) taken.push_back({x_(p.ms) - 5, y_(percent(p)) - 5, 10, 10});
+    for (const Point* p : shown_) {
+      const double x = x_(p->ms), y = y_(percent(*p)), r = p->on_front ? 5.5 : 4;
+      taken.push_back({x - r, y - r, 2 * r, 2 * r});
+      if (!p->on_front) continue;
+      texts.push_back(label_of(*p));
+      wanted.push_back({x, y, canvas_.text_width(texts.back(), label_size) + 4, label_size + 2});
     }
-    cairo_set_font_size(c_, 11);
-    for (const std::string& backend : backends_) {
-      for (const Point* p : front(backend)) {
-        const std::string s = text_of(p->configuration.knobs);
-        cairo_text_extents_t e;
-        cairo_text_extents(c_, s.c_str(), &e);
-        const double x = x_(p->ms), y = y_(percent(*p));
-        for (const auto& [dx, dy] : {std::pair(9.0, -7.0), std::pair(9.0, 14.0), std::pair(-9.0 - e.x_advance, 16.0),
-                                     std::pair(-9.0 - e.x_advance, -7.0), std::pair(9.0, -21.0), std::pair(9.0, 27.0)}) {
-          const Box box{x + dx - 1, y + dy - 10, e.x_advance + 2, 13};
-          const bool inside = box.x > left && box.x + box.w < width - 4 && box.y > top - 6 && box.y + box.h < height - bottom;
-          if (!inside || std::any_of(taken.begin(), taken.end(), [&](const Box& t) { return t.meets(box); })) continue;
-          taken.push_back(box);
-          text(x + dx, y + dy, s, 11, 0.25);
-          break;
-        }
+    for (const auto& device : m_.devices) {
+      const std::vector<std::pair<double, double>> corners = front(device.first);
+      for (std::size_t i = 1; i < corners.size(); ++i) {
+        const auto& [x0, y0] = corners[i - 1];
+        const auto& [x1, y1] = corners[i];
+        taken.push_back({std::min(x0, x1), std::min(y0, y1), std::fabs(x1 - x0) + 1, std::fabs(y1 - y0) + 1});
       }
     }
+    taken.push_back({right + 4, 0, width, area.y + legend_height()});
+    // They may stand beyond the axes, below the legend.
+    const std::vector<std::optional<Box>> boxes = placed(wanted, taken, {area.x, area.y, width - area.x - 6, area.height});
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (!boxes[i] || texts[i].empty()) continue;
+      const Box& b = *boxes[i];
+      const double x = std::clamp(wanted[i].x, b.x, b.x + b.width), y = std::clamp(wanted[i].y, b.y, b.y + b.height);
+      const double apart = std::hypot(x - wanted[i].x, y - wanted[i].y);
+      if (apart > 14) canvas_.line(wanted[i].x, wanted[i].y, x, y, grey(0.6), 0.7);
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (!boxes[i]) continue;
+      canvas_.text(boxes[i]->x + 2, boxes[i]->y + label_size, texts[i], label_size, grey(0.2));
+    }
   }
+
+  double legend_height() const { return 21.0 * static_cast<double>(techniques_.size() + 2 * m_.devices.size() + 1) + 24; }
 
   void legend() {
-    double y = top + 16;
-    const double x = width - right - 190;
-    const double rows = static_cast<double>(techniques_.size() * backends_.size());
-    cairo_set_source_rgba(c_, 1, 1, 1, 0.88);
-    cairo_rectangle(c_, x - 14, top + 2, 200, rows * 19 + 8);
-    cairo_fill(c_);
+    const double x = right + 22;
+    double y = area.y + 8;
     for (const std::string& t : techniques_) {
-      for (const std::string& b : backends_) {
-        Point p{{t, b, {}}, {}};
-        p.on_front = true;
-        marker(x, y - 4, p, 1);
-        text(x + 14, y, t + ", " + b, 13, 0.15);
-        y += 19;
-      }
+      canvas_.box(x - 6, y - 6, 12, 12, colour_of(t));
+      canvas_.text(x + 16, y + 4, t, 12, grey(0.15));
+      y += 21;
     }
+    y += 8;
+    for (const auto& device : m_.devices) {
+      const std::string& backend = device.first;
+      canvas_.marker(x, y, 4.6, backend == "gl", true, grey(0.35));
+      canvas_.text(x + 16, y + 4, backend, 12, grey(0.15));
+      y += 21;
+      dashes(backend);
+      canvas_.line(x - 10, y, x + 10, y, grey(0.45), 1.3);
+      cairo_set_dash(canvas_.cairo(), nullptr, 0, 0);
+      canvas_.text(x + 16, y + 4, "front, " + backend, 12, grey(0.15));
+      y += 21;
+    }
+    y += 8;
+    canvas_.marker(x, y, 3.2, false, false, grey(0.35));
+    canvas_.text(x + 16, y + 4, "beaten by another", 12, grey(0.15));
   }
 
-  cairo_t* c_;
+  Canvas canvas_;
   const Measurement& m_;
-  const std::string& title_;
-  std::vector<std::string> techniques_, backends_;
-  Axis x_{}, y_{};
+  const Origin& origin_;
+  std::vector<std::string> techniques_;
+  std::vector<const Point*> shown_;  // timed, the fastest first
+  LogAxis x_{1, 1000, area.x, right}, y_{0.1, 100, bottom, area.y};
 };
 
-// Draws on a surface and writes it under a temporary name first.
-template <class Write>
-void render(cairo_surface_t* made, const Measurement& m, const std::string& title, double scale, const std::string& target,
-            const Write& write) {
-  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(made, cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> context(cairo_create(made), cairo_destroy);
-  cairo_scale(context.get(), scale, scale);
-  Figure(context.get(), m, title).draw();
-  write(made);
-  std::error_code failure;
-  if (cairo_status(context.get()) == CAIRO_STATUS_SUCCESS) std::filesystem::rename(target + ".part", target, failure);
-  if (failure || !std::filesystem::exists(target)) throw MachineError(target + ": cannot be written");
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned size) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void draw_on(cairo_surface_t* surface, double scale, const Measurement& m, const Origin& origin) {
+  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo(cairo_create(surface), cairo_destroy);
+  cairo_scale(cairo.get(), scale, scale);
+  Drawing(cairo.get(), m, origin).draw();
+  if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS) {
+    throw MachineError(std::string("the figure cannot be drawn: ") + cairo_status_to_string(status));
+  }
 }
 
 }  // namespace
 
-void draw(const Measurement& m, const std::string& title, const std::string& name) {
-  render(cairo_svg_surface_create((name + ".svg.part").c_str(), width, height), m, title, 1, name + ".svg",
-         [](cairo_surface_t* s) { cairo_surface_finish(s); });
-  render(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(1.5 * width), static_cast<int>(1.5 * height)), m, title,
-         1.5, name + ".png", [&](cairo_surface_t* s) { cairo_surface_write_to_png(s, (name + ".png.part").c_str()); });
+Figure figure_of(const Measurement& m, const Origin& origin) {
+  using Owned = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
+  Figure figure;
+  {
+    const Owned svg(cairo_svg_surface_create_for_stream(append, &figure.svg, width, height), cairo_surface_destroy);
+    draw_on(svg.get(), 1, m, origin);
+    cairo_surface_finish(svg.get());
+  }
+  // Cairo numbers its surfaces through the whole process; nothing refers to that number.
+  const std::string name = "id=\"surface";
+  if (const std::size_t at = figure.svg.find(name); at != std::string::npos) {
+    const std::size_t first = at + name.size();
+    figure.svg.erase(first, figure.svg.find('"', first) - first);
+  }
+  constexpr double scale = 1.5;
+  const Owned png(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(scale * width), static_cast<int>(scale * height)),
+      cairo_surface_destroy);
+  draw_on(png.get(), scale, m, origin);
+  if (cairo_surface_write_to_png_stream(png.get(), append, &figure.png) != CAIRO_STATUS_SUCCESS) {
+    throw MachineError("the figure cannot be encoded as PNG");
+  }
+  return figure;
 }
 
 }  // namespace airlight

@@ -4,11 +4,17 @@
 #include <string>
 
 #include "bench/pareto/measure.h"
+#include "bench/pareto/origin.h"
 
 namespace airlight {
 
-// Logarithmic axes, a colour a technique, a marker a backend, the fronts as lines and their points labelled by their knobs.
-// `name`.svg and `name`.png appear when complete. Throws MachineError where they cannot be written.
-void draw(const Measurement&, const std::string& title, const std::string& name);
+// Bytes of two files of the same figure.
+struct Figure {
+  std::string svg, png;
+};
+
+// Logarithmic axes, a colour a technique, a marker a backend, the front of each backend as a line, its points filled and labelled
+// by those of their knobs that differ, the others hollow. The same arguments give the same bytes (with the same fonts installed).
+Figure figure_of(const Measurement&, const Origin&);
 
 }  // namespace airlight

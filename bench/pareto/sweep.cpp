@@ -1,11 +1,14 @@
 #include "bench/pareto/sweep.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "common/plan/keys.h"
 
 namespace airlight {
+
+Settings Configuration::all_knobs() const { return KnobValues(airlight::technique(technique).knobs, knobs).all(); }
 
 std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent) {
   std::set<std::vector<std::uint64_t>> seen;
@@ -21,6 +24,22 @@ std::vector<Settings> different_settings(const Technique& technique, const Scene
     if (seen.insert(step_keys(plan.steps, [&](Handle h) { return uploads.at(h); })).second) different.push_back(settings);
   }
   return different;
+}
+
+std::vector<Configuration> configurations(const Scene& scene, Extent extent, const std::vector<std::string>& asked,
+                                          const std::vector<std::string>& backends, std::vector<std::string>& refused) {
+  std::vector<Configuration> all;
+  for (const Technique& t : techniques()) {
+    if (!t.plan || (!asked.empty() && std::find(asked.begin(), asked.end(), t.name) == asked.end())) continue;
+    if (const auto why = t.refuses(scene)) {
+      refused.push_back(std::string(t.name) + ": " + *why);
+      continue;
+    }
+    for (const Settings& settings : different_settings(t, scene, extent)) {
+      for (const std::string& backend : backends) all.push_back({std::string(t.name), backend, settings});
+    }
+  }
+  return all;
 }
 
 std::string text_of(const Settings& settings) {

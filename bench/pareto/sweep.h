@@ -13,10 +13,18 @@ namespace airlight {
 struct Configuration {
   std::string technique, backend;
   Settings knobs;  // those with a sweep
+
+  // Every knob of the technique, those without a sweep at their standard: a scene's own settings do not count.
+  Settings all_knobs() const;
 };
 
 // Those of one technique that differ in their plan: a knob that the scene does not need is not swept.
 std::vector<Settings> different_settings(const Technique&, const Scene&, Extent);
+
+// Of the real-time techniques named (all, where none is), those that render the scene, with each backend in turn. `refused`
+// gets a line "technique: why" for each of the others.
+std::vector<Configuration> configurations(const Scene&, Extent, const std::vector<std::string>& techniques,
+                                          const std::vector<std::string>& backends, std::vector<std::string>& refused);
 
 // "steps=32 light_steps=16"
 std::string text_of(const Settings&);

@@ -25,11 +25,11 @@ double positive(const std::string& text, std::string_view unit, double factor, s
 
 }  // namespace
 
-Goal goal_of(const std::string& error, const std::string& budget) {
-  if (!error.empty() && !budget.empty()) throw InputError("--error and --budget: expected one of them");
+Goal goal_of(const std::optional<std::string>& error, const std::optional<std::string>& budget) {
+  if (error && budget) throw InputError("--error and --budget: expected one of them");
   Goal goal;
-  if (!error.empty()) goal.error = positive(error, "%", 0.01, "", 1, "--error: expected a relative error such as 1% or 0.01");
-  if (!budget.empty()) goal.seconds = positive(budget, "ms", 1e-3, "s", 1, "--budget: expected a time such as 30ms or 0.03s");
+  if (error) goal.error = positive(*error, "%", 0.01, "", 1, "--error: expected a relative error such as 1% or 0.01");
+  if (budget) goal.seconds = positive(*budget, "ms", 1e-3, "s", 1, "--budget: expected a time such as 30ms or 0.03s");
   return goal;
 }
 

@@ -14,7 +14,8 @@ struct Goal {
   explicit operator bool() const { return error || seconds; }
 };
 
-// From "1%", "0.01" and "30ms", "0.03s"; empty: not asked. Throws InputError for anything else, and for both.
-Goal goal_of(const std::string& error, const std::string& budget);
+// From the texts of --error ("1%", "0.01") and --budget ("30ms", "0.03s"), each only if it is asked. Throws InputError for
+// anything else, and for both.
+Goal goal_of(const std::optional<std::string>& error, const std::optional<std::string>& budget);
 
 }  // namespace airlight

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "common/reference/reference.h"
+#include "common/scene/content_hash.h"
 #include "common/scene/image_file.h"
 #include "tests/truth/truth_scenes.h"
 

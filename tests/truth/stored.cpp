@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "common/scene/content_hash.h"
 #include "common/scene/image_file.h"
 #include "tests/tolerances.h"
 #include "tests/truth/truth_scenes.h"

@@ -33,7 +33,4 @@ std::span<const TruthScene> stored_scenes();
 inline constexpr Extent stored_extent{96, 72};
 inline constexpr ReferenceSettings stored_settings{1e-9, true};
 
-// SHA-256 (hex) of everything in a scene that its image depends on, meshes included.
-std::string content_hash(const Scene&);
-
 }  // namespace airlight

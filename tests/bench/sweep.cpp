@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "bench/pareto/sweep.h"
+
+namespace airlight {
+namespace {
+
+TEST(Sweep, IsTheProductOfTheKnobsThatHaveOne) {
+  std::vector<Knob> knobs(3);
+  knobs[0].name = "a", knobs[0].sweep = {"1", "2", "3"};
+  knobs[1].name = "b";
+  knobs[2].name = "c", knobs[2].sweep = {"x", "y"};
+  std::string all;
+  for (const Settings& s : products(knobs)) all += text_of(s) + ";";
+  EXPECT_EQ(all, "a=1 c=x;a=1 c=y;a=2 c=x;a=2 c=y;a=3 c=x;a=3 c=y;");
+  EXPECT_EQ(products({}), std::vector<Settings>{{}});
+}
+
+TEST(Sweep, EveryValueIsOneThatItsKnobTakes) {
+  for (const Technique& t : techniques()) {
+    for (const Settings& s : products(t.knobs)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
+  }
+}
+
+Scene foggy() {
+  Scene scene;
+  scene.medium.extinction = 0.1;
+  scene.lights.emplace_back();
+  return scene;
+}
+
+TEST(Sweep, KnobsThatDoNothingAreLeftOut) {
+  Scene scene = foggy();
+  const Technique& marching = technique("marching");
+  const std::size_t steps = marching.knobs[0].sweep.size();
+  EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps);
+  scene.medium.gaussians.emplace_back();
+  // Marched toward the light with each number of steps, or by the closed form with none.
+  EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps * (marching.knobs[1].sweep.size() + 1));
+}
+
+TEST(Sweep, ConfigurationsAreOfTechniquesThatRenderTheScene) {
+  Scene scene = foggy();
+  scene.technique = "marching";
+  scene.settings = {{"steps", "77"}};
+  std::vector<std::string> refused;
+  for (const Configuration& c : configurations(scene, {32, 24}, {}, {"cpu", "gl"}, refused)) {
+    EXPECT_NE(c.technique, "reference");
+    EXPECT_EQ(c.all_knobs().size(), technique(c.technique).knobs.size()) << "the scene's own settings could win";
+  }
+  EXPECT_TRUE(refused.empty());
+  const auto one = configurations(scene, {32, 24}, {"shadow-planes"}, {"gl"}, refused);
+  ASSERT_FALSE(one.empty());
+  EXPECT_EQ(one[0].technique + one[0].backend, "shadow-planesgl");
+  scene.medium.gaussians.emplace_back();
+  EXPECT_TRUE(configurations(scene, {32, 24}, {"shadow-planes"}, {"gl"}, refused).empty());
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_TRUE(refused[0].starts_with("shadow-planes: ")) << refused[0];
+}
+
+}  // namespace
+}  // namespace airlight
