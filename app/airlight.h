@@ -17,6 +17,7 @@
 
 #include "common/error.h"
 #include "common/image.h"
+#include "common/plan/goal.h"
 #include "common/progress.h"
 #include "common/scene/image_file.h"
 #include "common/scene/load.h"
@@ -36,6 +37,7 @@ struct RendererOptions {
 struct RenderSettings {
   std::string technique = "auto";                          // auto: what the scene names, else the first that supports it
   std::vector<std::pair<std::string, std::string>> knobs;  // name, value; win over the scene's
+  Goal goal;                                               // chooses technique and knobs; then no knobs may be given
   std::optional<Extent> resolution;                        // instead of the camera's
   int supersample = 1;                                     // 1..16: n x n samples a pixel, averaged
   std::vector<std::string> images{"beauty"};               // what to make: see image_names() in common/techniques/technique.h
@@ -71,6 +73,10 @@ class Renderer {
 
 // "0.1.0"
 std::string_view version();
+
+// Settings whose goal is replaced by the technique and knobs that are expected to meet it (common/techniques/choose.h), and what
+// is expected, one line; empty without a goal. Throws InputError where nothing is expected to. Renderer::render() does the same.
+std::pair<RenderSettings, std::string> chosen_for_goal(const Scene&, const RenderSettings&, const RendererOptions&);
 
 // What would run, what is skipped and why; many lines, ends with a newline.
 std::string explain(const Scene&, const RenderSettings&);

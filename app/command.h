@@ -19,6 +19,7 @@ struct RenderCommand {
   ImageFileOptions file;
   std::string stats_file;  // empty: none
   bool stats = false;
+  bool quiet = false;    // print nothing but errors and what is asked for
   bool explain = false;  // print what would run, before it runs
 };
 int render(const RenderCommand&, Terminal&);

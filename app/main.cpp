@@ -53,6 +53,7 @@ constexpr const char* program_examples = R"(Examples
 constexpr const char* render_examples = R"(Examples
   airlight render fog.json -o fog.exr --aov depth,airlight --stats
   airlight render fog.json -o fog.png --supersample 3 --tonemap reinhard
+  airlight render smoke.json -o smoke.exr --error 1%
   airlight render fog.json -o fog.exr --simd scalar --threads 1 --set table_nodes=128
 EXR files hold every image asked for, in channels NAME.R ...; other formats get one file an image.
 )";
@@ -63,6 +64,7 @@ struct Flags {
   CompareCommand compare;
   std::string resolution, log_level = "warning";
   std::vector<std::string> settings;
+  std::string error, budget;
   bool quiet = false;
 };
 
@@ -78,9 +80,11 @@ void add_scene_flags(CLI::App& command, Flags& f) {
       ->allow_extra_args(false);
   command
       .add_option("--aov", f.render.aovs,
-                  "more images, separated by commas: surface, surface.direct, surface.ambient, transmittance, "
+                  "more images, separated by commas: surface, surface.direct, surface.indirect, surface.ambient, transmittance, "
                   "airlight, airlight.LIGHT, depth, normal, optical_depth")
       ->delimiter(',');
+  command.add_option("--error", f.error, "choose technique and settings for at most this relative RMSE: 1% or 0.01");
+  command.add_option("--budget", f.budget, "choose the most exact technique and settings for this time a frame: 30ms or 0.03s");
   command.add_option("--resolution", f.resolution, "WIDTHxHEIGHT instead of the camera's");
   command.add_option("--supersample", f.render.settings.supersample, "n x n samples a pixel, 1 to 16")->capture_default_str();
 }
@@ -165,6 +169,8 @@ int run(int argc, char** argv) {
   static Terminal terminal(level_of(f));  // outlives the thread that waits for signals
   stop_on_signals(terminal);
   for (const std::string& s : f.settings) f.render.settings.knobs.push_back(setting_of(s));
+  f.render.settings.goal = goal_of(f.error, f.budget);
+  f.render.quiet = f.quiet;
   if (!f.resolution.empty()) f.render.settings.resolution = extent_of(f.resolution);
   if (*render_command) return render(f.render, terminal);
   if (*explain_command) return explain(f.render, terminal);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <tuple>
 
 #include "app/command.h"
 #include "common/scene/temporary_file.h"
@@ -83,6 +84,9 @@ int render(const RenderCommand& c, Terminal& terminal) {
   const Clock::time_point loaded = Clock::now();
   times.load = seconds_between(start, loaded);
   terminal.log(LogLevel::debug, fmt::format("{}: loaded in {:.3f} s, {}", c.scene, times.load, scene.hash));
+  std::string chosen;
+  std::tie(settings, chosen) = chosen_for_goal(scene, settings, c.renderer);
+  if (!chosen.empty() && !c.quiet) fmt::print("{}\n", chosen);
   const std::string plan = explain(scene, settings);
   if (c.explain) fmt::print("{}", plan);
   terminal.log(LogLevel::debug, plan);

@@ -8,7 +8,7 @@
 #include "app/supersample.h"
 #include "common/reference/reference.h"
 #include "common/spelling.h"
-#include "common/techniques/technique.h"
+#include "common/techniques/choose.h"
 #include "cpu/backend.h"
 #include "gpu/backend.h"
 
@@ -74,6 +74,10 @@ FrameRequest request_for(const Technique& technique, const Scene& scene, const R
   return request;
 }
 
+int threads_of(const RendererOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 // The default floating-point mode while it lives, then the caller's: plans and tables must not depend on it.
 class DefaultFloats {
  public:
@@ -129,9 +133,7 @@ struct Renderer::State {
   RendererOptions options;
   std::unique_ptr<Backend> backend;
 
-  int threads() const {
-    return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  int threads() const { return threads_of(options); }
 
   Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats, Progress& progress) {
     Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), stats, progress)
@@ -163,8 +165,9 @@ const HostImage& Frame::image(std::string_view name) const {
   throw std::out_of_range("the frame has no image " + std::string(name));
 }
 
-Frame Renderer::render(const Scene& scene, const RenderSettings& settings, Progress& progress) {
+Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress& progress) {
   const DefaultFloats mode;
+  const RenderSettings settings = chosen_for_goal(scene, asked, state_->options).first;
   const Technique& technique = chosen_technique(scene, settings);
   FrameRequest request = request_for(technique, scene, settings);
   if (!technique.plan && state_->options.backend != "cpu") {
@@ -209,10 +212,32 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& settings) {
   return render(scene, settings, progress);
 }
 
-std::string explain(const Scene& scene, const RenderSettings& settings) {
+std::pair<RenderSettings, std::string> chosen_for_goal(const Scene& scene, const RenderSettings& asked,
+                                                       const RendererOptions& options) {
+  if (!asked.goal) return {asked, ""};
+  if (!asked.knobs.empty()) throw InputError("--set: a goal (--error, --budget) chooses the settings, expected one of the two");
+  if (asked.technique == "reference")
+    throw InputError("technique reference has no model of its error or time, expected another for a goal");
+  if (asked.goal.seconds && options.backend != "cpu")
+    throw InputError("--budget: times are modelled for the backend cpu only, expected --error");
+  const std::string only = asked.technique == "auto" ? "" : std::string(technique(asked.technique).name);
+  const int samples = asked.supersample * asked.supersample;
+  Extent extent = asked.resolution.value_or(scene.camera.resolution);
+  extent.height *= std::max(samples, 1);  // as many pixels
+  const Choice choice = choose(scene, extent, asked.goal, only, threads_of(options));
+  RenderSettings settings = asked;
+  settings.technique = choice.technique;
+  settings.knobs = choice.settings;
+  settings.goal = {};
+  return {settings, choice.text()};
+}
+
+std::string explain(const Scene& scene, const RenderSettings& asked) {
+  const auto [settings, chosen] = chosen_for_goal(scene, asked, {});
   const Technique& technique = chosen_technique(scene, settings);
   const FrameRequest request = request_for(technique, scene, settings);
-  std::string text = std::string(technique.name) + ": " + std::string(technique.summary) + "\n";
+  std::string text = chosen.empty() ? "" : "chosen: " + chosen + "\n";
+  text += std::string(technique.name) + ": " + std::string(technique.summary) + "\n";
   for (const auto& [name, value] : request.knobs.all()) text += "  " + name + " = " + value + "\n";
   if (!technique.plan) return text;
   const Plan plan = technique.plan(scene, request);

@@ -10,6 +10,7 @@
 #include "cpu/held_images.h"
 #include "cpu/kernels.h"
 #include "cpu/parallel.h"
+#include "cpu/shadow_planes.h"
 #include "cpu/surface_visibility.h"
 
 namespace airlight {
@@ -44,7 +45,8 @@ struct CpuBackend::State {
   std::map<Handle, HeldImage> images;
   std::map<Handle, HeldBuffer> buffers;
   std::map<std::size_t, Rasteriser> rasterisers;  // by position of their step
-  std::vector<Scratch> scratch;                   // by worker
+  std::map<std::size_t, ShadowRasteriser> shadow_rasterisers;
+  std::vector<Scratch> scratch;  // by worker
   int threads_that_ran = 0;
 
   explicit State(const CpuOptions& o) : simd(o.simd), fuse(o.fuse), workers(o.threads > 0 ? o.threads : machine_threads()) {
@@ -72,15 +74,21 @@ struct CpuBackend::State {
   std::vector<Group> groups(std::span<const Step>, const std::vector<bool>& run) const;
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
   void prepare(std::size_t index, const SurfaceVisibility&);
+  void prepare(std::size_t index, const ShadowPlanes& a) {
+    shadow_rasterisers[index].prepare(a, buffer(a.volumes), simd, workers);
+  }
   template <class PixelStep>
   void prepare(std::size_t, const PixelStep&) {}
 
-  void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view) {
+  void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view, int) {
     rasterisers.at(index).run_tile(view.tile, view.plane(a.distance), view.plane(a.normal, 0), view.plane(a.normal, 1),
                                    view.plane(a.normal, 2), view.plane(a.material));
   }
+  void run_tile(std::size_t index, const ShadowPlanes& a, const TileView& view, int worker) {
+    shadow_rasterisers.at(index).run_tile(a, view, worker);
+  }
   template <class PixelStep>
-  void run_tile(std::size_t, const PixelStep& a, const TileView& view) {
+  void run_tile(std::size_t, const PixelStep& a, const TileView& view, int) {
     airlight::run_tile(a, view, simd);
   }
 };
@@ -155,7 +163,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     for (const Place& p : places) s.view.images[p.id] = p.whole ? p.whole->tile(t) : s.floats.data() + p.offset;
     for (const std::size_t i : group.steps) {
       const Clock::time_point start = Clock::now();
-      std::visit([&](const auto& a) { run_tile(i, a, s.view); }, steps[i].what);
+      std::visit([&](const auto& a) { run_tile(i, a, s.view, worker); }, steps[i].what);
       s.seconds[i] += seconds_since(start);
     }
   });

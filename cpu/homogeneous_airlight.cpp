@@ -28,7 +28,9 @@ static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& v
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       const Light& light = a.lights[k];
       Real once = 0.0;
-      if (light.directional) {
+      if (a.scattered) {
+        once = load(view.plane(a.scattered, 0, static_cast<int>(k)) + i);
+      } else if (light.directional) {
         const Real mu = -dot(real3(light.vector), d);
         once = directional_airlight(kind, g, a.extinction, mu, 0.0, length);
       } else if (scatters) {

@@ -8,6 +8,7 @@
 namespace airlight {
 
 void run_tile(const ViewTransmittance&, const TileView&, Simd);
+void run_tile(const SurfaceAirlight&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
 void run_tile(const RayMarch&, const TileView&, Simd);

@@ -6,39 +6,11 @@
 
 #include "cpu/simd.h"
 //
+#include "cpu/lane_material.h"
 #include "cpu/pixel_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
-
-namespace {
-
-// The materials' seven numbers for each lane.
-struct LaneMaterial {
-  Real diffuse[3], specular[3], shininess;
-};
-
-// One material is the same for all lanes; of several each lane looks up its own. A lane that hits nothing gets the first.
-HWY_INLINE LaneMaterial lane_material(const SurfaceShading& a, Real index) {
-  static_assert(sizeof(Material) == 7 * sizeof(float));
-  LaneMaterial m;
-  if (a.materials.size() == 1) {
-    const Material& only = a.materials[0];
-    for (int c = 0; c < 3; ++c) m.diffuse[c] = only.diffuse[c], m.specular[c] = only.specular[c];
-    m.shininess = only.shininess;
-    return m;
-  }
-  const auto* values = reinterpret_cast<const float*>(a.materials.data());
-  const Real first = max(index, 0.0) * 7.0;
-  for (int c = 0; c < 3; ++c) {
-    m.diffuse[c] = fetch(values, first + c);
-    m.specular[c] = fetch(values, first + 3.0 + c);
-  }
-  m.shininess = fetch(values, first + 6.0);
-  return m;
-}
-
-}  // namespace
 
 static void surface_shading(const SurfaceShading& a, const TileView& view) {
   const float* distance = view.plane(a.distance);
@@ -53,9 +25,13 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
     const Real index = load(material + i);
     const Real t = load(through + i);
     const Mask hit = index >= 0.0;
+    Real indirect[3] = {0.0, 0.0, 0.0};
+    if (a.indirect) {
+      for (int c = 0; c < 3; ++c) indirect[c] = load(view.plane(a.indirect, c) + i);
+    }
     Real direct[3] = {0.0, 0.0, 0.0}, ambient[3] = {0.0, 0.0, 0.0};
     if (any_lane(hit)) {
-      const LaneMaterial m = lane_material(a, index);
+      const LaneMaterial m = lane_material(a.materials, index);
       const Real3 d = pixel_rays(a.view, view.tile, i);
       const Real3 n{load(normal[0] + i), load(normal[1] + i), load(normal[2] + i)};
       const Real depth = select(hit, load(distance + i), 0.0);
@@ -93,7 +69,7 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
       }
     }
     for (int c = 0; c < 3; ++c) {
-      store(select(hit, direct[c] + ambient[c], t * a.background[c]), view.plane(a.surface, c) + i);
+      store(select(hit, direct[c] + indirect[c] + ambient[c], t * a.background[c]), view.plane(a.surface, c) + i);
       if (a.surface_direct) store(direct[c], view.plane(a.surface_direct, c) + i);
       if (a.surface_ambient) store(ambient[c], view.plane(a.surface_ambient, c) + i);
     }

@@ -6,8 +6,10 @@ namespace airlight {
 
 void run(const HomogeneousAirlight& a, StepRunner& r, const Progress& progress) {
   const std::string lights = r.lights(a.lights);
-  Program& program = r.compute("gpu/homogeneous_airlight.glsl", {lights, a.per_light ? "WITH_PER_LIGHT" : ""});
+  Program& program = r.compute("gpu/homogeneous_airlight.glsl",
+                               {lights, a.per_light ? "WITH_PER_LIGHT" : "", a.scattered ? "WITH_SCATTERED" : ""});
   r.read(0, a.distance);
+  if (a.scattered) r.read(1, a.scattered);
   r.write(0, a.airlight);
   r.write(1, a.per_light);
   if (a.tables) r.storage(tables_binding, a.tables);

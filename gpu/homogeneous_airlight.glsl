@@ -2,6 +2,7 @@
 #include "gpu/screen.glsl"
 
 layout(binding = 0) uniform sampler2DArray distance_image;
+layout(binding = 1) uniform sampler2DArray scattered_image;
 layout(binding = 0, rgba32f) uniform writeonly image2DArray airlight_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray per_light_image;
 
@@ -26,6 +27,9 @@ void main() {
     vec4 power_directional = light_values[2 * k + 1];
     vec3 v = vector_radius.xyz;
     float once = 0.0;
+#ifdef WITH_SCATTERED
+    once = texelFetch(scattered_image, ivec3(p, k), 0).x;
+#else
     if (power_directional.w != 0.0) {
       once = directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), 0.0, length);
     } else if (extinction > 0.0) {
@@ -34,6 +38,7 @@ void main() {
       perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
       once = point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, 0.0, length);
     }
+#endif
     vec3 scattered = once * (power_directional.xyz * albedo_extinction.xyz);
 #ifdef WITH_PER_LIGHT
     imageStore(per_light_image, ivec3(p, k), vec4(scattered, 0.0));

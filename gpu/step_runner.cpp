@@ -80,6 +80,30 @@ void StepRunner::storage(GLuint binding, std::span<const std::byte> bytes) {
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
+std::vector<std::byte> StepRunner::content(const Buffer& buffer) const {
+  const auto held = buffers.find(buffer);
+  if (held == buffers.end()) throw std::logic_error("a step reads a buffer that was not uploaded");
+  std::vector<std::byte> bytes(held->second.buffer->bytes());
+  gl_.GetNamedBufferSubData(held->second.buffer->name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+  return bytes;
+}
+
+void StepRunner::scratch(GLuint binding, std::size_t bytes) {
+  GlBuffer& buffer = small_.try_emplace(binding, gl_).first->second;
+  if (buffer.bytes() < bytes) buffer.fill(bytes, nullptr);
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
+void StepRunner::read_storage(GLuint binding, std::span<std::byte> bytes) {
+  gl_.GetNamedBufferSubData(small_.at(binding).name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+std::size_t StepRunner::storage_limit() const {
+  GLint64 bytes = 0;
+  gl_.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+  return static_cast<std::size_t>(std::max<GLint64>(bytes, 1 << 24));  // GL promises 2^24
+}
+
 void StepRunner::block_bytes(GLuint binding, std::span<const std::byte> bytes) {
   GlBuffer& buffer = blocks_.try_emplace(binding, gl_).first->second;
   buffer.fill(bytes.size(), bytes.data());

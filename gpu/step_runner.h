@@ -54,6 +54,10 @@ class StepRunner {
   void storage(GLuint binding, const Buffer&);               // as a storage buffer
   void storage(GLuint binding, std::span<const std::byte>);  // small values, made for this step
   GLuint buffer_name(const Buffer&) const;
+  std::vector<std::byte> content(const Buffer&) const;      // back on the host, for what is set up there
+  void scratch(GLuint binding, std::size_t bytes);          // a storage buffer of undefined content, at least that large
+  void read_storage(GLuint binding, std::span<std::byte>);  // of what storage() made for this step
+  std::size_t storage_limit() const;                        // [byte] of one storage buffer
   template <class T>
   void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));
@@ -85,7 +89,9 @@ class StepRunner {
 };
 
 void run(const SurfaceVisibility&, StepRunner&, const Progress&);
+void run(const ShadowPlanes&, StepRunner&, const Progress&);
 void run(const ViewTransmittance&, StepRunner&, const Progress&);
+void run(const SurfaceAirlight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);

@@ -6,6 +6,7 @@ layout(binding = 1) uniform sampler2DArray normal_image;
 layout(binding = 2) uniform sampler2DArray material_image;
 layout(binding = 3) uniform sampler2DArray transmittance_image;
 layout(binding = 4) uniform sampler2DArray light_transmittance_image;
+layout(binding = 5) uniform sampler2DArray indirect_image;
 layout(binding = 0, rgba32f) uniform writeonly image2DArray surface_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray direct_image;
 layout(binding = 2, rgba32f) uniform writeonly image2DArray ambient_image;
@@ -57,7 +58,11 @@ void main() {
     direct *= through;
     ambient = diffuse * ambient_extinction.xyz * through;
   }
-  vec3 surface = index >= 0.0 ? direct + ambient : background.xyz * through;
+  vec3 indirect = vec3(0.0);
+#ifdef WITH_INDIRECT
+  indirect = texelFetch(indirect_image, at, 0).xyz;
+#endif
+  vec3 surface = index >= 0.0 ? direct + indirect + ambient : background.xyz * through;
   imageStore(surface_image, at, vec4(surface, 0.0));
 #ifdef WITH_DIRECT
   imageStore(direct_image, at, vec4(direct, 0.0));

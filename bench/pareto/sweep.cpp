@@ -10,22 +10,6 @@ namespace airlight {
 
 Settings Configuration::all_knobs() const { return KnobValues(airlight::technique(technique).knobs, knobs).all(); }
 
-std::vector<Settings> products(std::span<const Knob> knobs) {
-  std::vector<Settings> all{{}};
-  for (const Knob& knob : knobs) {
-    if (knob.sweep.empty()) continue;
-    std::vector<Settings> longer;
-    for (const Settings& settings : all) {
-      for (const std::string_view value : knob.sweep) {
-        longer.push_back(settings);
-        longer.back().emplace_back(knob.name, value);
-      }
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
-
 std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent) {
   std::set<std::vector<std::uint64_t>> seen;
   std::vector<Settings> different;

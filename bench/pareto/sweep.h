@@ -2,16 +2,13 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/image.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
+#include "common/techniques/choose.h"
 
 namespace airlight {
-
-using Settings = std::vector<std::pair<std::string, std::string>>;  // knob, value
 
 struct Configuration {
   std::string technique, backend;
@@ -20,9 +17,6 @@ struct Configuration {
   // Every knob of the technique, those without a sweep at their standard: a scene's own settings do not count.
   Settings all_knobs() const;
 };
-
-// Products of the sweeps, the first knob slowest; knobs without one keep their standard.
-std::vector<Settings> products(std::span<const Knob>);
 
 // Those of one technique that differ in their plan: a knob that the scene does not need is not swept.
 std::vector<Settings> different_settings(const Technique&, const Scene&, Extent);

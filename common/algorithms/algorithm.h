@@ -9,14 +9,16 @@
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/ray_march.h"
+#include "common/algorithms/shadow_planes.h"
+#include "common/algorithms/surface_airlight.h"
 #include "common/algorithms/surface_shading.h"
 #include "common/algorithms/surface_visibility.h"
 #include "common/algorithms/view_transmittance.h"
 
 namespace airlight {
 
-using Algorithm =
-    std::variant<SurfaceVisibility, ViewTransmittance, SurfaceShading, HomogeneousAirlight, RayMarch, LightMarch, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
+                               HomogeneousAirlight, RayMarch, LightMarch, Compose>;
 
 struct Step {
   Algorithm what;

@@ -7,11 +7,13 @@
 
 namespace airlight {
 
-// Single scattering of unshadowed lights along each pixel's ray in the homogeneous medium, with its ambient and emitted light.
+// Single scattering of the lights along each pixel's ray in the homogeneous medium, with its ambient and emitted light. Lights
+// are unshadowed, or what scatters of them is given.
 struct HomogeneousAirlight {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer
       tables;  // airlight tables of the phase function (common/plan/airlight_tables.h), float; needed by point lights in a medium
+  Image scattered;  // r32f, a layer a light, as ShadowPlanes makes it; optional: then the tables are not needed
   std::vector<Light> lights;
   View view;
   Phase phase;
@@ -30,6 +32,7 @@ struct HomogeneousAirlight {
   static void fields(Self& s, Visit&& v) {
     v(in("distance", "m"), s.distance);
     v(in("tables"), s.tables);
+    v(in("scattered"), s.scattered);
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);
     v(knob("phase"), s.phase);

@@ -12,6 +12,7 @@ namespace airlight {
 struct SurfaceShading {
   Image distance, normal, material, transmittance;
   Image light_transmittance;  // r32f, one layer a light, 0..1; optional: what else stands in the light's way
+  Image indirect;             // rgb32f, as SurfaceAirlight makes it; optional: added to `surface`
   std::vector<Material> materials;
   std::vector<Light> lights;
   View view;
@@ -32,6 +33,7 @@ struct SurfaceShading {
     v(in("material"), s.material);
     v(in("transmittance"), s.transmittance);
     v(in("light_transmittance"), s.light_transmittance);
+    v(in("indirect", "W/m^2/sr"), s.indirect);
     v(knob("materials"), s.materials);
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);

@@ -6,5 +6,6 @@
 #include "common/formulas/reflection.h"
 #include "common/formulas/grid.h"
 #include "common/formulas/airlight.h"
+#include "common/formulas/surface_airlight.h"
 #include "common/formulas/gaussian.h"
 #include "common/formulas/marching.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/formulas/double.h"
+#include "common/reference/indirect.h"
 
 namespace airlight {
 
@@ -72,6 +73,10 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
   const glm::dvec3 mirror = d - 2 * glm::dot(d, seen.normal) * seen.normal;
   for (const RelativeLight& light : lights_) {
+    if (settings_.indirect && medium_.extinction > 0) {
+      pixel.surface_indirect +=
+          indirect_reflection(medium_, light, seen.point, seen.normal, mirror, material) * light.power * medium_.albedo;
+    }
     const double e = irradiance(seen, light);
     if (!(e > 0)) continue;
     const glm::dvec3 to_light = glm::normalize(light.directional ? -light.vector : light.vector - seen.point);
@@ -85,8 +90,9 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   }
   if (!medium_.empty()) pixel.surface_ambient = glm::dvec3(material.diffuse) * medium_.ambient;
   pixel.surface_direct *= pixel.transmittance;
+  pixel.surface_indirect *= pixel.transmittance;
   pixel.surface_ambient *= pixel.transmittance;
-  pixel.surface = pixel.surface_direct + pixel.surface_ambient;
+  pixel.surface = pixel.surface_direct + pixel.surface_indirect + pixel.surface_ambient;
 }
 
 ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferenceParts& parts) const {

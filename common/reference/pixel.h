@@ -15,6 +15,8 @@ namespace airlight {
 struct ReferenceSettings {
   double tolerance = 1e-7;  // relative, of each light's integral along a ray: 1e-12..1e-2
   bool shadows = true;      // off: V = 1 everywhere, on surfaces and in the medium
+  bool indirect =
+      false;  // light that scatters once on its way to surfaces, as of the unbounded homogeneous medium without shadows
 };
 
 struct ReferencePixel {
@@ -23,8 +25,8 @@ struct ReferencePixel {
   int surface_index = -1;    // in Scene::surfaces; -1 where nothing is hit
   double optical_depth = 0;  // to the surface or over sky_distance; 1e30 where it is infinite
   double transmittance = 1;  // 0..1
-  glm::dvec3 surface{0};     // [W/m^2/sr] as it reaches the camera: direct + ambient, or the background
-  glm::dvec3 surface_direct{0}, surface_ambient{0};
+  glm::dvec3 surface{0};     // [W/m^2/sr] as it reaches the camera: direct + indirect + ambient, or the background
+  glm::dvec3 surface_direct{0}, surface_indirect{0}, surface_ambient{0};
   glm::dvec3 airlight{0};  // [W/m^2/sr] all lights, ambient and emission
   std::vector<glm::dvec3> airlight_of_light;
   double error = 0;  // estimated relative error of the worst channel of surface + airlight

@@ -53,6 +53,8 @@ void put_all(std::map<std::string, HostImage>& images, const Scene& scene, int x
       put(image, x, y, p.surface);
     else if (name == "surface.direct")
       put(image, x, y, p.surface_direct);
+    else if (name == "surface.indirect")
+      put(image, x, y, p.surface_indirect);
     else if (name == "surface.ambient")
       put(image, x, y, p.surface_ambient);
     else if (name == "airlight")
@@ -109,7 +111,8 @@ ReferenceFrame reference_frame(const Scene& scene, Extent extent, const Referenc
 std::map<std::string, HostImage> render_reference(const Scene& scene, const FrameRequest& request, int threads, Stats& stats,
                                                   Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on"};
+  const ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
+                                   request.knobs.choice("indirect") == "unbounded"};
   const Reference reference(scene, settings);
   const ReferenceParts parts{wanted(request, "surface"), wanted(request, "airlight")};
   std::map<std::string, HostImage> images;

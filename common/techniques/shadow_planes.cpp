@@ -6,6 +6,8 @@
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/images.h"
+#include "common/plan/indirect.h"
+#include "common/plan/shadow_volumes.h"
 
 namespace airlight {
 
@@ -17,8 +19,47 @@ std::optional<std::string> refuses(const Scene& scene) {
   return std::nullopt;
 }
 
+// Whether anything throws a shadow that can be seen; in `plan` what is left out.
+bool any_shadow(const Scene& scene, const std::vector<std::size_t>& lights, bool wanted, Plan& plan) {
+  bool any = false;
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                   [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); });
+  if (!casters || lights.empty()) {
+    plan.skips.push_back({"shadow planes", casters ? "no light" : "nothing casts a shadow"});
+  } else if (!wanted) {
+    plan.skips.push_back({"shadow planes", "shadows = off"});
+  } else {
+    std::size_t out_of_reach = 0;
+    for (const std::size_t light : lights) {
+      for (const Surface& s : scene.surfaces) {
+        if (!s.casts_shadow || s.mesh->triangles.empty()) continue;
+        if (shadow_matters(scene, s, scene.lights[light])) {
+          any = true;
+        } else {
+          ++out_of_reach;
+        }
+      }
+    }
+    if (out_of_reach > 0) {
+      plan.skips.push_back({"silhouettes of " + std::to_string(out_of_reach) + " casters out of reach of a light",
+                            "the fog before them lets nothing through"});
+    }
+    if (!any) plan.skips.push_back({"shadow planes", "no light reaches a caster"});
+  }
+  return any;
+}
+
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { geometry_id = 1, tables_id = 4, per_light_id = 5, first_image_id = 6 };
+  enum : std::uint32_t {
+    geometry_id = 1,
+    tables_id = 4,
+    per_light_id = 5,
+    volumes_id = 6,
+    scattered_id = 7,
+    lit_id = 8,
+    indirect_tables_id = 9,
+    first_image_id = 10
+  };
   Plan plan;
   const Medium& medium = scene.medium;
   const View view = view_of(scene, request);
@@ -55,17 +96,59 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                           .normal = normal,
                                           .material = material},
                         "what each pixel sees"});
+
+  // Section 4: which parts of each ray the lights reach. Shadow planes start at the casters' silhouettes.
+  const bool scatters = foggy && medium.albedo != glm::dvec3(0);
+  const std::vector<Light> scattered_lights = scatters || per_light ? lights : std::vector<Light>{};
+  Buffer tables;
+  if (foggy && std::any_of(scattered_lights.begin(), scattered_lights.end(), [](const Light& l) { return !l.directional; })) {
+    tables = {{tables_id}, 0};
+    const int nodes = static_cast<int>(request.knobs.number("table_nodes"));
+    Hash key;
+    key.add(medium.phase);
+    key.add(nodes);
+    plan.uploads.push_back({tables, key.value(), [phase = medium.phase, nodes] {
+                              const std::vector<float> values = airlight_tables(phase, nodes);
+                              const auto bytes = std::as_bytes(std::span(values));
+                              return std::vector<std::byte>(bytes.begin(), bytes.end());
+                            }});
+  }
+  Image scattered, lit;
+  if (any_shadow(scene, light_index, request.knobs.choice("shadows") == "on", plan)) {
+    const int layers = static_cast<int>(lights.size());
+    if (!scattered_lights.empty() && foggy) scattered = {{scattered_id}, Format::r32f, request.extent, layers, false};
+    if (!scene.surfaces.empty()) lit = {{lit_id}, Format::r32f, request.extent, layers, false};
+    Plan::Upload volumes = shadow_volumes_upload(scene, light_index, geometry.positions.key ^ geometry.indices.key, volumes_id);
+    plan.uploads.push_back(volumes);
+    plan.steps.push_back({ShadowPlanes{.distance = distance,
+                                       .volumes = volumes.buffer,
+                                       .tables = scattered ? tables : Buffer{},
+                                       .lights = lights,
+                                       .view = view,
+                                       .phase = medium.phase,
+                                       .extinction = extinction,
+                                       .sky_distance = sky,
+                                       .scattered = scattered,
+                                       .light_transmittance = lit},
+                          "which parts of each ray the lights reach"});
+  }
   plan.steps.push_back({ViewTransmittance{.distance = distance,
                                           .extinction = extinction,
                                           .sky_distance = sky,
                                           .transmittance = transmittance,
                                           .optical_depth = optical_depth},
                         "how much of it comes through the fog"});
+  // Section 3-C: light scattered once on its way to the surfaces.
+  SurfaceAirlight given;
+  given.distance = distance, given.normal = normal, given.material = material, given.transmittance = transmittance;
+  given.lights = lights, given.view = view;
+  const Image indirect = add_indirect(scene, request, given, indirect_tables_id, images, plan);
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
                                        .transmittance = transmittance,
-                                       .light_transmittance = {},
+                                       .light_transmittance = lit,
+                                       .indirect = indirect,
                                        .materials = materials_of(scene),
                                        .lights = lights,
                                        .view = view,
@@ -78,24 +161,10 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                         "direct light on the surfaces, attenuated on both ways"});
 
   // Section 3: light scattered once on its way along the view ray.
-  const bool scatters = foggy && medium.albedo != glm::dvec3(0);
-  const std::vector<Light> scattered = scatters || per_light ? lights : std::vector<Light>{};
-  Buffer tables;
-  if (foggy && std::any_of(scattered.begin(), scattered.end(), [](const Light& l) { return !l.directional; })) {
-    tables = {{tables_id}, 0};
-    const int nodes = static_cast<int>(request.knobs.number("table_nodes"));
-    Hash key;
-    key.add(medium.phase);
-    key.add(nodes);
-    plan.uploads.push_back({tables, key.value(), [phase = medium.phase, nodes] {
-                              const std::vector<float> values = airlight_tables(phase, nodes);
-                              const auto bytes = std::as_bytes(std::span(values));
-                              return std::vector<std::byte>(bytes.begin(), bytes.end());
-                            }});
-  }
   plan.steps.push_back({HomogeneousAirlight{.distance = distance,
-                                            .tables = tables,
-                                            .lights = scattered,
+                                            .tables = scattered ? Buffer{} : tables,
+                                            .scattered = scattered,
+                                            .lights = scattered_lights,
                                             .view = view,
                                             .phase = medium.phase,
                                             .extinction = extinction,
@@ -112,9 +181,23 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
   if (scatters && !tables) plan.skips.push_back({"airlight tables", "no point light"});
   if (!scatters) plan.skips.push_back({"airlight of the lights", "the medium scatters nothing"});
-  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
-  if (casters) plan.skips.push_back({"shadows", "casters are ignored: this version has no shadow planes"});
   return plan;
+}
+
+// Fitted to the sweeps of docs/RESULTS.md. The error is that of single precision and, growing with the third power of their
+// coarseness, of the tables; pixels at edges are not counted. Time: thread nanoseconds a pixel, a triangle, and a pixel and
+// light.
+Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
+  const double coarseness = 64 / knobs.number("table_nodes"), lights = static_cast<double>(scene.lights.size());
+  double triangles = 0, casting = 0;
+  for (const Surface& s : scene.surfaces) {
+    const auto count = static_cast<double>(s.mesh->triangles.size());
+    triangles += count;
+    if (s.casts_shadow) casting += count;
+  }
+  const double pixels = static_cast<double>(extent.width) * extent.height;
+  const double nanoseconds = pixels * (12 + lights * (casting > 0 ? 60 : 20)) + triangles * 100 + casting * lights * 150;
+  return {1e-4 + 5e-5 * coarseness * coarseness * coarseness, 1e-9 * nanoseconds / threads};
 }
 
 }  // namespace
@@ -122,7 +205,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
 Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
-  t.summary = "analytic single scattering in homogeneous fog (Biri et al. 2006)";
+  t.summary = "analytic single scattering and exact shadows in homogeneous fog (Biri et al. 2006)";
   t.knobs = {
       {.name = "table_nodes",
        .kind = Knob::Kind::integer,
@@ -132,9 +215,19 @@ Technique shadow_planes() {
        .choices = {},
        .meaning =
            "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
-       .sweep = {"16", "24", "32", "48", "64", "96", "128"}}};
+       .sweep = {"16", "24", "32", "48", "64", "96", "128"}},
+      {.name = "shadows",
+       .kind = Knob::Kind::choice,
+       .standard = "on",
+       .least = 0,
+       .most = 0,
+       .choices = {"on", "off"},
+       .meaning = "shadows of the casters, in the medium and on surfaces",
+       .sweep = {}},
+      indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
+  t.estimate = estimate;
   return t;
 }
 

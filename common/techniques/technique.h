@@ -72,6 +72,13 @@ struct Plan {
   std::vector<Output> outputs;  // the wanted images, each kept
 };
 
+// What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's
+// file.
+struct Estimate {
+  double error = 0;    // relative RMSE of beauty
+  double seconds = 0;  // of a warm frame on the CPU of docs/RESULTS.md
+};
+
 struct Technique {
   std::string_view name;
   std::string_view summary;
@@ -79,6 +86,7 @@ struct Technique {
   // Why this technique cannot render the scene, or nothing.
   std::optional<std::string> (*refuses)(const Scene&) = nullptr;
   Plan (*plan)(const Scene&, const FrameRequest&) = nullptr;  // null for `reference`, which runs on no backend
+  Estimate (*estimate)(const Scene&, Extent, const KnobValues&, int threads) = nullptr;  // null for `reference`
 };
 
 // All techniques that work, in the order of --help; `reference` last.
@@ -86,8 +94,8 @@ std::span<const Technique> techniques();
 // Throws InputError naming the known ones.
 const Technique& technique(std::string_view name);
 
-// Every image that the scene can give: beauty surface surface.direct surface.ambient transmittance airlight airlight.<light>
-// depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
+// Every image that the scene can give: beauty surface surface.direct surface.indirect surface.ambient transmittance airlight
+// airlight.<light> depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
 std::vector<std::string> image_names(const Scene&);
 std::string light_image_name(const Scene&, std::size_t light);
 int image_channels(std::string_view name);

@@ -90,9 +90,10 @@ TEST_F(Program, BeautyIsTheSumOfItsStoredParts) {
 
 TEST_F(Program, EveryImageItNamesCanBeWritten) {
   const std::string names =
-      "surface,surface.direct,surface.ambient,transmittance,airlight,airlight.lamp,airlight.1,depth,normal,optical_depth";
+      "surface,surface.direct,surface.indirect,surface.ambient,transmittance,airlight,airlight.lamp,airlight.1,depth,normal,"
+      "optical_depth";
   ASSERT_EQ(work.run("render scene.json -o fog.exr --aov " + names).code, 0);
-  EXPECT_EQ(read_images(work.path("fog.exr").string()).size(), 11U);
+  EXPECT_EQ(read_images(work.path("fog.exr").string()).size(), 12U);
   ASSERT_EQ(work.run("render scene.json -o fog.pfm --aov depth").code, 0);
   EXPECT_EQ(image("fog.depth.pfm").channels, 1);
   for (const std::string extension : {"tif", "hdr", "png", "jpg", "bmp", "tga", "ppm"}) {
@@ -126,7 +127,7 @@ TEST_F(Program, ExplainsAndCounts) {
   const Told told = work.run("explain scene.json");
   EXPECT_EQ(told.code, 0);
   for (const std::string word :
-       {"shadow-planes", "table_nodes = 64", "surface_visibility", "homogeneous_airlight", "casters are ignored"}) {
+       {"shadow-planes", "table_nodes = 64", "surface_visibility", "shadow_planes", "homogeneous_airlight"}) {
     EXPECT_NE(told.out.find(word), std::string::npos) << word << "\n" << told.out;
   }
   const Told counted = work.run("render scene.json -o a.exr --stats --stats-json stats.json");

@@ -6,8 +6,9 @@ namespace airlight {
 
 std::vector<NamedCase> all_cases() {
   std::vector<NamedCase> all;
-  for (const auto list : {surface_visibility_cases(), view_transmittance_cases(), surface_shading_cases(),
-                          homogeneous_airlight_cases(), ray_march_cases(), light_march_cases(), compose_cases(), frame_cases()}) {
+  for (const auto list : {surface_visibility_cases(), shadow_planes_cases(), view_transmittance_cases(), surface_airlight_cases(),
+                          surface_shading_cases(), homogeneous_airlight_cases(), ray_march_cases(), light_march_cases(),
+                          compose_cases(), frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;

@@ -28,7 +28,9 @@ struct NamedCase {
 
 // One list an algorithm, in the file of its name, and one of whole frames.
 std::span<const NamedCase> surface_visibility_cases();
+std::span<const NamedCase> shadow_planes_cases();
 std::span<const NamedCase> view_transmittance_cases();
+std::span<const NamedCase> surface_airlight_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
 std::span<const NamedCase> ray_march_cases();

@@ -18,6 +18,7 @@ Case airlight(Extent extent, const std::vector<Light>& lights, Phase phase, floa
   const Image parts{{6}, Format::rgb32f, extent, std::max(1, static_cast<int>(lights.size())), true};
   c.steps = {{HomogeneousAirlight{.distance = surfaces.distance,
                                   .tables = buffer,
+                                  .scattered = {},
                                   .lights = lights,
                                   .view = view,
                                   .phase = phase,

@@ -27,6 +27,7 @@ Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> mat
                       .material = surfaces.material,
                       .transmittance = random_image(4, 1),
                       .light_transmittance = light_transmittance ? random_image(5, static_cast<int>(lights.size())) : Image{},
+                      .indirect = {},
                       .materials = materials,
                       .lights = lights,
                       .view = view,

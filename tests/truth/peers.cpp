@@ -1,5 +1,5 @@
-// The reference against images of exact single scattering made elsewhere (tests/data/peers: 160x120, one channel, little-endian
-// PFM).
+// The reference against images of exact single scattering made elsewhere (scenes/peers, tests/data/peers: 160x120, one channel,
+// little-endian PFM).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,15 +10,16 @@
 
 #include "common/reference/reference.h"
 #include "common/scene/image_file.h"
-#include "tests/truth/scenes.h"
+#include "common/scene/load.h"
 
 namespace airlight {
 namespace {
 
 constexpr Extent extent{160, 120};
 
-void compare(const Scene& scene, const std::string& name) {
-  const HostImage image = read_image(AIRLIGHT_TEST_DATA "/peers/" + name);
+void compare(const std::string& name) {
+  const Scene scene = load_scene(AIRLIGHT_SCENES "/peers/" + name + ".json");
+  const HostImage image = read_image(AIRLIGHT_TEST_DATA "/peers/" + name + ".pfm");
   ASSERT_EQ(image.extent, extent);
   ASSERT_EQ(image.channels, 1);
   const std::vector<double> truth(image.values.begin(), image.values.end());
@@ -40,26 +41,9 @@ void compare(const Scene& scene, const std::string& name) {
   EXPECT_FALSE(!(frame.error <= 1e-6));
 }
 
-TEST(Peers, FogWithLampInView) {
-  Scene scene = foggy_scene(0.2);
-  scene.surfaces = {black_wall(-8)};
-  scene.lights = {point_light({0.5, 0.3, -4}, glm::dvec3(10))};
-  compare(scene, "S1.pfm");
-}
-
-TEST(Peers, Blob) {
-  Scene scene;
-  scene.medium.gaussians = {{.center = {0, 0, -5}, .radius = 1, .extinction = 1.5}};
-  scene.lights = {point_light({-3, 3, -4}, glm::dvec3(100))};
-  compare(scene, "S2.pfm");
-}
-
-TEST(Peers, ShaftsBehindBox) {
-  Scene scene = foggy_scene(0.2);
-  scene.surfaces = {black_wall(-9), surface(box({-1, 0.5, -5.4}, {-0.2, 1.3, -4.6}), diffuse(0, 0, 0), true)};
-  scene.lights = {point_light({-1.6, 2.4, -5}, glm::dvec3(20))};
-  compare(scene, "S4.pfm");
-}
+TEST(Peers, FogWithLampInView) { compare("S1"); }
+TEST(Peers, Blob) { compare("S2"); }
+TEST(Peers, ShaftsBehindBox) { compare("S4"); }
 
 }  // namespace
 }  // namespace airlight

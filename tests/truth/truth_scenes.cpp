@@ -91,7 +91,11 @@ Scene hundred_thousand_triangles() {
   return scene;
 }
 
+// A lamp on either side of the plume, which darkens the floor.
+Scene smoke_plume() { return load_scene(AIRLIGHT_SCENES "/smoke.json"); }
+
 constexpr TruthScene all_scenes[] = {{"gaussians_behind_box", gaussians_behind_box},
+                                     {"smoke_plume", smoke_plume},
                                      {"bunny_in_fog", bunny_in_fog},
                                      {"empty_fog_light_in_view", empty_fog_light_in_view},
                                      {"light_behind_camera", light_behind_camera},
@@ -137,6 +141,6 @@ Scene lamp_in_gaussians() {
 }
 
 std::span<const TruthScene> stored_scenes() { return all_scenes; }
-std::span<const TruthScene> homogeneous_scenes() { return stored_scenes().subspan(1); }
+std::span<const TruthScene> homogeneous_scenes() { return stored_scenes().subspan(2); }
 
 }  // namespace airlight

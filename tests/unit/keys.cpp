@@ -29,6 +29,7 @@ struct Chain {  // a: distance -> transmittance; b: with the surface -> beauty
                             .material = distance,
                             .transmittance = transmittance,
                             .light_transmittance = {},
+                            .indirect = {},
                             .materials = {},
                             .lights = {},
                             .view = {},

@@ -144,6 +144,55 @@ Measured measure_value(const Run& run, bool clamped) {
   return m;
 }
 
+// The largest value that a lookup in the brick can meet: by going through the cells of the ring from 4 b to 4 b + 4.
+Measured measure_bound(const Run& run) {
+  Random random(stream + 4);
+  Measured m;
+  for (const Grid& grid : grids()) {
+    std::array<int, 3> bricks{};
+    std::vector<float> table;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bricks[axis] = (grid.n[axis] + 1 + 3) / 4;
+      table.push_back(static_cast<float>(bricks[axis]));
+    }
+    const auto largest = [&](int a, int b, int c) {
+      double most = 0;
+      for (int k = 4 * c; k <= std::min(4 * c + 4, grid.n[2] + 1); ++k) {
+        for (int j = 4 * b; j <= std::min(4 * b + 4, grid.n[1] + 1); ++j) {
+          for (int i = 4 * a; i <= std::min(4 * a + 4, grid.n[0] + 1); ++i) {
+            const bool ring = i == 0 || j == 0 || k == 0 || i > grid.n[0] || j > grid.n[1] || k > grid.n[2];
+            if (ring) continue;
+            most = std::max(most, grid.value(static_cast<std::size_t>(i - 1), static_cast<std::size_t>(j - 1),
+                                             static_cast<std::size_t>(k - 1)));
+          }
+        }
+      }
+      return most;
+    };
+    for (int c = 0; c < bricks[2]; ++c) {
+      for (int b = 0; b < bricks[1]; ++b) {
+        for (int a = 0; a < bricks[0]; ++a) table.push_back(static_cast<float>(largest(a, b, c)));
+      }
+    }
+    Columns in;
+    for (int i = 0; i < 3000; ++i) {
+      add_call(in, random.number(-2, grid.n[0] + 1), random.number(-2, grid.n[1] + 1), random.number(-2, grid.n[2] + 1),
+               grid.n[0], grid.n[1], grid.n[2]);
+    }
+    const Columns found = run({Formula::grid_bound, in, {}, table});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      const auto brick = [&](std::size_t axis) {
+        const int lower = std::clamp(static_cast<int>(std::floor(in[axis][i])), -1, grid.n[axis] - 1);
+        return (lower + 1) / 4;
+      };
+      m.add(std::fabs(found[0][i] - largest(brick(0), brick(1), brick(2))), [&] {
+        return place({{"cells in x", in[3][i]}, {"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
+      });
+    }
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_grid_checks(std::vector<Check>& checks) {
@@ -152,6 +201,7 @@ void add_grid_checks(std::vector<Check>& checks) {
   checks.push_back({"grid_coordinate", measure_coordinate, "geometry_double", "image_plane"});
   checks.push_back({"grid_lookup_zero", lookup(false), "geometry_double", "exact_float"});
   checks.push_back({"grid_lookup_clamped", lookup(true), "geometry_double", "exact_float"});
+  checks.push_back({"grid_bound", measure_bound, "exact_double", "exact_float"});
   checks.push_back({"grid_value_zero", value(false), "grid_value_double", "grid_value"});
   checks.push_back({"grid_value_clamped", value(true), "grid_value_double", "grid_value"});
 }

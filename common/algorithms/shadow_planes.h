@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/algorithms/field.h"
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+// What the buffer ShadowPlanes::volumes holds, made by common/plan/shadow_volumes.h: one ShadowLight a light, in the order of
+// `lights`, then every ShadowEdge. Positions are relative to the camera [m].
+struct ShadowLight {
+  double vector[3];       // position of a point light, unit direction toward a directional one
+  double point;           // 1 for a point light, 0 for a directional one: (vector, point) is the light in homogeneous coordinates
+  std::int64_t first;     // of its edges, counted from the first edge of the buffer
+  std::int64_t count;     // of its edges
+  std::int64_t covering;  // how many triangles stand between the camera and the light: the count that every view ray starts from
+};
+// A silhouette edge. Extruded away from the light to infinity it is a shadow plane; who crosses it toward the left of a -> b, as
+// seen from the light, has `multiplicity` more triangles between himself and the light than before.
+struct ShadowEdge {
+  double a[3], b[3];
+  std::int32_t multiplicity;  // not 0, magnitude at most shadow_multiplicity
+  std::int32_t unused;
+};
+constexpr std::int32_t shadow_multiplicity = 1 << 16;
+
+// Which parts of each pixel's ray each light reaches, from the shadow planes that the ray crosses before it ends: single scattering
+// on these parts, and whether the surface at its end is lit (Biri et al. 2006, III-D and IV; every crossing is kept and sorted by
+// its distance, where the paper sorts whole planes). The end of a lit part is where the ray crosses a plane, computed from the
+// plane: no sampling.
+struct ShadowPlanes {
+  Image distance;  // r32f [m], 1e30 on a miss
+  Buffer volumes;  // ShadowLight and ShadowEdge
+  Buffer tables;   // as in HomogeneousAirlight; needed by point lights in a medium where `scattered` is wanted
+  std::vector<Light> lights;
+  View view;
+  Phase phase;
+  float extinction = 0;        // [1/m]
+  float sky_distance = 1e30F;  // [m]; 1e30 and above stand for infinity
+
+  Image scattered;            // r32f, a layer a light, per unit of its power and of albedo [1/m^2, directional 1]; optional
+  Image light_transmittance;  // r32f, a layer a light: 1 where the ray's end is lit, 0 in shadow; optional
+
+  static constexpr std::string_view name = "shadow_planes";
+  static constexpr Domain domain = Domain::pixel;
+  template <class Self, class Visit>
+  static void fields(Self& s, Visit&& v) {
+    v(in("distance", "m"), s.distance);
+    v(in("volumes"), s.volumes);
+    v(in("tables"), s.tables);
+    v(knob("lights"), s.lights);
+    v(knob("view"), s.view);
+    v(knob("phase"), s.phase);
+    v(knob("extinction", "1/m"), s.extinction);
+    v(knob("sky_distance", "m"), s.sky_distance);
+    v(out("scattered"), s.scattered);
+    v(out("light_transmittance"), s.light_transmittance);
+  }
+};
+
+}  // namespace airlight

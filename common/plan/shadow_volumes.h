@@ -1,0 +1,32 @@
+// What a scene's casters and lights become for ShadowPlanes: silhouettes relative to the camera, and what covers the camera.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/algorithms/shadow_planes.h"
+#include "common/plan/silhouette.h"
+#include "common/scene/scene.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+// A light of the scene relative to the camera.
+HomogeneousLight light_near_camera(const Scene&, std::size_t light);
+
+// Whether a surface's shadow can be seen at all: no for one so far from a point light that its light is below any float there.
+bool shadow_matters(const Scene&, const Surface&, const LightSource&);
+
+struct ShadowVolumes {
+  std::vector<ShadowLight> lights;
+  std::vector<ShadowEdge> edges;
+};
+// `lights`: positions in Scene::lights, in the order of the algorithm's.
+ShadowVolumes shadow_volumes(const Scene&, const std::vector<std::size_t>& lights);
+
+// The same as an upload. `geometry_key` names positions and triangles relative to the camera (Geometry).
+Plan::Upload shadow_volumes_upload(const Scene&, const std::vector<std::size_t>& lights, std::uint64_t geometry_key,
+                                   std::uint32_t id);
+
+}  // namespace airlight

@@ -1,0 +1,56 @@
+#include "common/techniques/choose.h"
+
+#include <cstdio>
+
+#include "common/error.h"
+
+namespace airlight {
+
+std::vector<Settings> products(std::span<const Knob> knobs) {
+  std::vector<Settings> all{{}};
+  for (const Knob& knob : knobs) {
+    if (knob.sweep.empty()) continue;
+    std::vector<Settings> longer;
+    for (const Settings& settings : all) {
+      for (const std::string_view value : knob.sweep) {
+        longer.push_back(settings);
+        longer.back().emplace_back(knob.name, value);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::string Choice::text() const {
+  std::string all = technique;
+  for (const auto& [name, value] : settings) all += " " + name + "=" + value;
+  char expected[80];
+  std::snprintf(expected, sizeof expected, ": %.2g %% and %.2g ms expected", 100 * estimate.error, 1e3 * estimate.seconds);
+  return all + expected;
+}
+
+Choice choose(const Scene& scene, Extent extent, const Goal& goal, std::string_view only, int threads) {
+  Choice best, nearest;
+  std::string reasons;
+  // First what misses the goal least, then what costs least.
+  const auto cost = [&](const Estimate& e) { return goal.error ? e.seconds : e.error; };
+  const auto missed = [&](const Estimate& e) { return goal.error ? e.error / *goal.error : e.seconds / *goal.seconds; };
+  for (const Technique& t : techniques()) {
+    if (!t.estimate || (!only.empty() && t.name != only)) continue;
+    if (const auto why = t.refuses(scene)) {
+      reasons += "; " + std::string(t.name) + ": " + *why;
+      continue;
+    }
+    for (const Settings& settings : products(t.knobs)) {
+      const Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, settings), threads);
+      if (nearest.technique.empty() || missed(e) < missed(nearest.estimate)) nearest = {std::string(t.name), settings, e};
+      if (missed(e) <= 1 && (best.technique.empty() || cost(e) < cost(best.estimate))) best = {std::string(t.name), settings, e};
+    }
+  }
+  if (!best.technique.empty()) return best;
+  throw InputError("no technique of this version is expected to meet the goal" +
+                   (nearest.technique.empty() ? std::string() : "; nearest is " + nearest.text()) + reasons);
+}
+
+}  // namespace airlight

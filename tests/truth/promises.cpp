@@ -1,0 +1,98 @@
+// What a goal promises: technique and knobs chosen by the stored models, their error measured. Times are only told.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "app/airlight.h"
+#include "common/reference/reference.h"
+#include "common/techniques/choose.h"
+#include "tests/tolerances.h"
+#include "tests/truth/truth_scenes.h"
+
+namespace airlight {
+namespace {
+
+constexpr Extent extent{64, 48};
+
+// Off edges, as the models promise it.
+double relative_error(const HostImage& image, const ReferenceFrame& truth) {
+  double squares = 0, sum = 0, n = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    if (truth.edges[i]) continue;
+    for (int c = 0; c < 3; ++c) {
+      const double expected = truth.pixels[i].beauty()[c];
+      const double apart = static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]) - expected;
+      squares += apart * apart, sum += expected, n += 1;
+    }
+  }
+  return std::sqrt(squares / n) / (sum / n);
+}
+
+class Promises : public testing::TestWithParam<TruthScene> {};
+
+TEST_P(Promises, AreKeptWithinAFactorOfTwo) {
+  Scene scene = GetParam().make();
+  if (!scene.medium.gaussians.empty() || scene.medium.grid) {  // nothing of this version throws shadows there
+    for (Surface& s : scene.surfaces) s.casts_shadow = false;
+  }
+  NoProgress progress;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, true}, true, threads, progress);
+  Renderer renderer({.backend = "cpu"});
+  int kept = 0;
+  for (const char* asked : {"10%", "3%", "1%", "0.3%", "0.1%", "0.03%"}) {
+    RenderSettings settings;
+    settings.goal = goal_of(asked, "");
+    settings.resolution = extent;
+    std::string chosen;
+    try {
+      chosen = chosen_for_goal(scene, settings, {}).second;
+    } catch (const InputError& none) {
+      std::printf("%s: %s\n", asked, none.what());
+      continue;
+    }
+    const Frame frame = renderer.render(scene, settings);
+    const double error = relative_error(frame.image("beauty"), truth);
+    std::printf("%s: %s; measured %.3g %% and %.3g ms with cold tables\n", asked, chosen.c_str(), 100 * error,
+                1e3 * frame.stats.seconds);
+    EXPECT_FALSE(!(error <= tolerance("promise") * *settings.goal.error)) << asked;
+    ++kept;
+  }
+  EXPECT_GE(kept, 3);
+}
+
+std::vector<TruthScene> scenes() {
+  std::vector<TruthScene> all(stored_scenes().begin(), stored_scenes().end());
+  all.push_back({"lamp_in_gaussians", lamp_in_gaussians});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, Promises, testing::ValuesIn(scenes()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// The search itself, by the models alone.
+TEST(Choose, TakesTheCheapestOrTheBestAndSaysWhatComesNearest) {
+  const Scene scene = lamp_in_gaussians();
+  const Choice rough = choose(scene, {800, 600}, goal_of("10%", ""), "", 2),
+               fine = choose(scene, {800, 600}, goal_of("1%", ""), "", 2);
+  EXPECT_LE(rough.estimate.error, 0.1);
+  EXPECT_LE(fine.estimate.error, 0.01);
+  EXPECT_LT(rough.estimate.seconds, fine.estimate.seconds);
+  const Choice timed = choose(scene, {800, 600}, goal_of("", "2s"), "", 2);
+  EXPECT_LE(timed.estimate.seconds, 2);
+  try {
+    choose(scene, {800, 600}, goal_of("0.00001%", ""), "", 2);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("nearest is marching"), std::string::npos) << error.what();
+  }
+  RenderSettings both;
+  both.goal = goal_of("1%", "");
+  both.knobs = {{"steps", "4"}};
+  EXPECT_THROW(chosen_for_goal(scene, both, {}), InputError);
+}
+
+}  // namespace
+}  // namespace airlight

@@ -1,0 +1,80 @@
+// What ShadowPlanes leaves out changes nothing, bit for bit; and what it says about it.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "app/airlight.h"
+#include "tests/parity/inputs.h"
+
+namespace airlight {
+
+namespace {
+
+HostImage beauty(Renderer& renderer, const Scene& scene, const std::string& shadows = "on") {
+  RenderSettings settings;
+  settings.resolution = Extent{160, 120};
+  settings.knobs = {{"shadows", shadows}};
+  return renderer.render(scene, settings).image("beauty");
+}
+
+class ShadowSkips : public testing::TestWithParam<std::string> {
+ protected:
+  Renderer renderer{{.backend = GetParam(), .gl_context = "osmesa"}};
+};
+
+TEST_P(ShadowSkips, NothingThatCastsIsAsShadowsOff) {
+  Scene scene = test_scene(600);
+  for (Surface& s : scene.surfaces) s.casts_shadow = false;
+  EXPECT_EQ(beauty(renderer, scene).values, beauty(renderer, scene, "off").values);
+  EXPECT_NE(explain(scene, {}).find("shadow planes: nothing casts a shadow"), std::string::npos) << explain(scene, {});
+  for (Surface& s : scene.surfaces) s.casts_shadow = true;
+  EXPECT_NE(beauty(renderer, scene).values, beauty(renderer, scene, "off").values);
+}
+
+TEST_P(ShadowSkips, LightsOfNoPowerThrowNoShadow) {
+  Scene scene = test_scene(600);
+  const HostImage before = beauty(renderer, scene);
+  LightSource dark = scene.lights[0];
+  dark.name = "dark";
+  dark.power = glm::dvec3(0);
+  scene.lights.push_back(dark);
+  EXPECT_EQ(beauty(renderer, scene).values, before.values);
+  EXPECT_NE(explain(scene, {}).find("lights of zero power"), std::string::npos);
+}
+
+// In fog of 40 /m the light at 2.5 m and more is below any float.
+TEST_P(ShadowSkips, CastersOutOfReach) {
+  Scene scene = test_scene(600);
+  scene.medium.extinction = 40;
+  scene.lights.resize(1);
+  scene.lights[0].position = scene.camera.position + glm::dvec3(0, 0.1, -0.3);
+  EXPECT_EQ(beauty(renderer, scene).values, beauty(renderer, scene, "off").values);
+  EXPECT_NE(explain(scene, {}).find("out of reach"), std::string::npos) << explain(scene, {});
+}
+
+// A torus behind a wall and one behind the camera: their planes lie behind every surface, or out of view.
+TEST_P(ShadowSkips, PlanesThatNoRayMeets) {
+  Scene scene = test_scene(600);
+  scene.camera.position = {0, 0, 4};
+  scene.camera.look_at = {0, 0, 0};
+  scene.lights.resize(1);
+  scene.lights[0].position = {0.5, 0.7, 3};
+  Surface wall{.mesh = square(30), .material = {.diffuse = {0.5F, 0.5F, 0.5F}}};
+  wall.transform = glm::dmat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);  // y = 0 becomes z = 0
+  Surface torus = scene.surfaces[1];
+  scene.surfaces = {wall};
+  const HostImage before = beauty(renderer, scene);
+  torus.transform[3] = {0, 0, -3, 1};
+  scene.surfaces.push_back(torus);
+  EXPECT_EQ(beauty(renderer, scene).values, before.values) << "behind the wall";
+  scene.surfaces[1].transform[3] = {0, 0, 9, 1};
+  EXPECT_EQ(beauty(renderer, scene).values, before.values) << "behind the camera";
+  scene.surfaces[1].transform[3] = {0, 0, 1, 1};
+  EXPECT_NE(beauty(renderer, scene).values, before.values) << "in view it does throw a shadow";
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, ShadowSkips, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
+
+}  // namespace
+
+}  // namespace airlight
