@@ -17,12 +17,12 @@
 
 #include "common/error.h"
 #include "common/image.h"
-#include "common/plan/goal.h"
 #include "common/progress.h"
 #include "common/scene/image_file.h"
 #include "common/scene/load.h"
 #include "common/scene/scene.h"
 #include "common/stats.h"
+#include "common/techniques/goal.h"
 
 namespace airlight {
 

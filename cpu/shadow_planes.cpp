@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t change_offset = 1U << 17U;
 
-// A ScreenFunction over one tile. Its value at a pixel is rounded once where the row begins and once at the pixel, counted from the
-// tile's corner: the same bits on every target, and errors of 1e-7 of what the function varies over a tile.
+// A ScreenFunction over one tile. Its value at a pixel is rounded once where the row begins and once at the pixel, counted from
+// the tile's corner: the same bits on every target, and errors of 1e-7 of what the function varies over a tile.
 struct OnTile {
   double at_corner, down;
   float across;
@@ -58,7 +58,8 @@ void cross(const ShadowQuad& q, const Tile& tile, const float* ends, float least
   if (!(k_most * 1.0001F > least_end)) return;
 
   HWY_ALIGN float first[tile_side], last[tile_side];
-  const OnTile minus_v({-q.v.c[0], -q.v.c[1], -q.v.c[2]}, tile), beyond({q.k.c[0] - static_cast<double>(least_end) * 0.9999, q.k.c[1], q.k.c[2]}, tile);
+  const OnTile minus_v({-q.v.c[0], -q.v.c[1], -q.v.c[2]}, tile),
+      beyond({q.k.c[0] - static_cast<double>(least_end) * 0.9999, q.k.c[1], q.k.c[2]}, tile);
   for (int y = 0; y < tile_side; y += lanes) {
     const Real row = first_lanes() + y;
     Real from = 0.0, to = static_cast<float>(tile_side - 1);
@@ -126,11 +127,13 @@ static void shadow_cross(std::span<const ShadowQuads> chunks, const Tile& tile, 
   c.count = 0;
   const float* ends = c.rays.data() + 2 * static_cast<std::ptrdiff_t>(tile_pixels);
   for (const ShadowQuads& chunk : chunks) {
-    for (const std::uint32_t i : chunk.of_tile(static_cast<std::size_t>(tile.index))) cross(chunk.quads[i], tile, ends, least_end, c);
+    for (const std::uint32_t i : chunk.of_tile(static_cast<std::size_t>(tile.index)))
+      cross(chunk.quads[i], tile, ends, least_end, c);
   }
 }
 
-// Single scattering of one light over the lit parts of every ray; `whole`: no plane touches the tile, every ray is lit throughout.
+// Single scattering of one light over the lit parts of every ray; `whole`: no plane touches the tile, every ray is lit
+// throughout.
 static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::size_t index, bool whole, const Crossings& c) {
   const Light& light = a.lights[index];
   const float* tables = a.tables ? view.floats(a.tables) : nullptr;
@@ -141,7 +144,9 @@ static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::siz
   for (int i = 0; i < tile_pixels; i += lanes) {
     std::uint32_t parts = whole ? 1 : 0;
     if (!whole) {
-      for (int lane = 0; lane < lanes; ++lane) parts = std::max(parts, c.first_part[static_cast<std::size_t>(i + lane) + 1] - c.first_part[static_cast<std::size_t>(i + lane)]);
+      for (int lane = 0; lane < lanes; ++lane)
+        parts = std::max(parts,
+                         c.first_part[static_cast<std::size_t>(i + lane) + 1] - c.first_part[static_cast<std::size_t>(i + lane)]);
     }
     Real sum = 0.0;
     if (parts > 0 && a.extinction > 0) {
@@ -235,7 +240,7 @@ void find_parts(Crossings& c, std::int64_t covering, float* lit) {
   for (std::size_t p = 0; p < tile_pixels; ++p) {
     c.first_part[p] = static_cast<std::uint32_t>(c.from.size());
     std::int64_t count = covering;
-    float at = 0;          // where the ray has been followed to
+    float at = 0;         // where the ray has been followed to
     float lit_from = -1;  // of the lit part that is open; negative: none
     // Parts of no length count for nothing: planes crossed at the same place may come in any order.
     const auto advance = [&](float next) {
@@ -298,7 +303,8 @@ void ShadowRasteriser::prepare(const ShadowPlanes& a, std::span<const std::byte>
   workers.each(static_cast<int>(jobs.size()), [&](int j, int) {
     const Job& job = jobs[static_cast<std::size_t>(j)];
     const std::span<const ShadowEdge> all = volumes.of(*job.from);
-    job.light->chunks[job.chunk].make(rays, *job.from, all.subspan(job.first, std::min(chunk_size, all.size() - job.first)), tile_side);
+    job.light->chunks[job.chunk].make(rays, *job.from, all.subspan(job.first, std::min(chunk_size, all.size() - job.first)),
+                                      tile_side);
   });
 }
 

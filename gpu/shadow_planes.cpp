@@ -9,9 +9,9 @@ namespace airlight {
 
 namespace {
 
-constexpr int side = 32;              // of a tile: a multiple of the work group's 16 x 4
-constexpr int short_list = 16;        // crossings a pixel that the lists begin with
-constexpr GLuint run_binding = 3;     // uniform block
+constexpr int side = 32;           // of a tile: a multiple of the work group's 16 x 4
+constexpr int short_list = 16;     // crossings a pixel that the lists begin with
+constexpr GLuint run_binding = 3;  // uniform block
 constexpr GLuint begin_binding = 0, planes_binding = 1, changes_binding = 2, lists_binding = 3, most_binding = 4;
 
 struct RunBlock {
@@ -60,9 +60,12 @@ class ShadowRun {
         do {
           run.add(quads, static_cast<std::size_t>(row * columns + column), column * side, row * side);
           ++column;
-        } while (column < columns && run.bytes() + 3 * sizeof(glm::vec4) * quads.of_tile(static_cast<std::size_t>(row * columns + column)).size() <= limit_ &&
+        } while (column < columns &&
+                 run.bytes() + 3 * sizeof(glm::vec4) * quads.of_tile(static_cast<std::size_t>(row * columns + column)).size() <=
+                     limit_ &&
                  list_bytes(run.count + 1) <= limit_);
-        if (run.bytes() > limit_) throw MachineError("shadow planes: this OpenGL's storage buffers cannot hold the planes of one tile");
+        if (run.bytes() > limit_)
+          throw MachineError("shadow planes: this OpenGL's storage buffers cannot hold the planes of one tile");
         while (!draw(run, row, index, covering)) {
           // Longer lists for fewer tiles.
           if (list_bytes(run.count) <= limit_) continue;
@@ -70,7 +73,8 @@ class ShadowRun {
           if (fit == 0) throw MachineError("shadow planes: this OpenGL's storage buffers cannot hold the crossings of one tile");
           RunOfTiles part;
           part.first = run.first;
-          for (column = run.first; part.count < fit; ++column) part.add(quads, static_cast<std::size_t>(row * columns + column), column * side, row * side);
+          for (column = run.first; part.count < fit; ++column)
+            part.add(quads, static_cast<std::size_t>(row * columns + column), column * side, row * side);
           run = std::move(part);
         }
       }

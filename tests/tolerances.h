@@ -36,7 +36,8 @@ inline constexpr Tolerance tolerances[] = {
      "by which the truth finds edges"},
     {"truth_everywhere", 0.01,
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
-    {"truth_marching", 0.015, "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
+    {"truth_marching", 0.015,
+     "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
     {"truth_airlight_everywhere", 0.002,
      "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
      "airlight"},
@@ -80,7 +81,9 @@ inline constexpr Tolerance tolerances[] = {
     {"gaussian_table", 1e-7, "beside the whole line: the inputs are given as floats, which moves an end by 1e-7 of its distance"},
     {"gaussian_depth", 6e-7, "beside the whole line: half the difference of two erf_, exp_ of a rounded square"},
     {"graded_step", 1e-5, "beside the logarithm of the whole: exp_ and log_ of numbers rounded beside 1"},
-    {"step_phase", 1e-2, "beside the mean and a tenth of the isotropic one: a step seen in 0.2 rad takes the phase halfway, second order in the angle"},
+    {"step_phase", 1e-2,
+     "beside the mean and a tenth of the isotropic one: a step seen in 0.2 rad takes the phase halfway, second order in the "
+     "angle"},
     {"step_angle", 2e-6, "beside the angle and 1 % of half a turn: the differences from the foot are rounded"},
     {"step_means", 1e-2,
      "beside the step: one of a tenth of the light's distance takes the half angle for the means, 0.1 / 12 away where it points "

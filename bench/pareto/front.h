@@ -5,7 +5,7 @@
 
 #include "bench/pareto/sweep.h"
 #include "bench/pareto/truth.h"
-#include "common/plan/goal.h"
+#include "common/techniques/goal.h"
 
 namespace airlight {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/pareto/measure.h"
-#include "common/plan/goal.h"
+#include "common/techniques/goal.h"
 
 namespace airlight {
 

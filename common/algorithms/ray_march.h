@@ -9,9 +9,9 @@
 namespace airlight {
 
 // Marches each pixel's ray through the medium from front to back: transmittance, light of unshadowed lights scattered once,
-// ambient and emitted light. Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters Gaussians
-// and grid to where it leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is
-// empty costs nothing.
+// ambient and emitted light. Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters
+// Gaussians and grid to where it leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`;
+// one that is empty costs nothing.
 struct RayMarch {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer voxels;   // extinctions of the grid (common/plan/voxels.h); with a grid

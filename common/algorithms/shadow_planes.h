@@ -26,10 +26,10 @@ struct ShadowEdge {
 };
 constexpr std::int32_t shadow_multiplicity = 1 << 16;
 
-// Which parts of each pixel's ray each light reaches, from the shadow planes that the ray crosses before it ends: single scattering
-// on these parts, and whether the surface at its end is lit (Biri et al. 2006, III-D and IV; every crossing is kept and sorted by
-// its distance, where the paper sorts whole planes). The end of a lit part is where the ray crosses a plane, computed from the
-// plane: no sampling.
+// Which parts of each pixel's ray each light reaches, from the shadow planes that the ray crosses before it ends: single
+// scattering on these parts, and whether the surface at its end is lit (Biri et al. 2006, III-D and IV; every crossing is kept
+// and sorted by its distance, where the paper sorts whole planes). The end of a lit part is where the ray crosses a plane,
+// computed from the plane: no sampling.
 struct ShadowPlanes {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer volumes;  // ShadowLight and ShadowEdge

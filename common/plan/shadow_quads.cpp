@@ -46,7 +46,7 @@ ScreenRays::ScreenRays(const View& view) : extent_(view.extent) {
 }
 
 ScreenFunction ScreenRays::along(const double (&w)[3]) const {
-  const auto dot = [&](const double (&axis)[3]) { return axis[0] * w[0] + axis[1] * w[1] + axis[2] * w[2]; };
+  const auto dot = [&](const double(&axis)[3]) { return axis[0] * w[0] + axis[1] * w[1] + axis[2] * w[2]; };
   const double x = dot(right_), y = dot(up_);
   return {{left_ * x + top_ * y + dot(forward_), step_ * x, -step_ * y}};
 }
@@ -76,8 +76,8 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
   };
   for (const ShadowEdge& edge : edges) {
     // With w = light.point: a point of the plane is (w - alpha - beta) l + alpha a + beta b, and for a ray d that meets it at z,
-    // det(d, l, a) = beta D / z, -det(d, l, b) = alpha D / z, det(d, a, b) = (w - alpha - beta) D / z, D = det(l, a, b). The plane
-    // is where alpha, beta >= 0 and 1 - alpha - beta <= 0 (for a directional light the last weight itself).
+    // det(d, l, a) = beta D / z, -det(d, l, b) = alpha D / z, det(d, a, b) = (w - alpha - beta) D / z, D = det(l, a, b). The
+    // plane is where alpha, beta >= 0 and 1 - alpha - beta <= 0 (for a directional light the last weight itself).
     const glm::dvec3 a = vector(edge.a), b = vector(edge.b), ab = glm::cross(a, b), la = glm::cross(l, a), lb = glm::cross(l, b);
     const int side_of_camera = beside(l, a, b);
     const double volume = side_of_camera * std::fabs(glm::dot(l, ab));
@@ -119,7 +119,8 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
   members.resize(begin.back());
   std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
   for (const Span& s : spans) {
-    for (int column = s.from; column <= s.to; ++column) members[at[static_cast<std::size_t>(s.row * columns + column)]++] = s.quad;
+    for (int column = s.from; column <= s.to; ++column)
+      members[at[static_cast<std::size_t>(s.row * columns + column)]++] = s.quad;
   }
 }
 

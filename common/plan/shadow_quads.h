@@ -14,12 +14,13 @@ struct ScreenFunction {
   double c[3];
 };
 
-// A shadow plane of light L and edge AB. Seen from the camera its border are the lines LA, LB and AB, straight lines of the image;
-// 1/z along the camera's axis is linear over the image, too. So four linear functions tell everything, wherever the plane lies:
-// behind the camera, through it, seen edge-on, out to infinity. Nothing is clipped or divided.
+// A shadow plane of light L and edge AB. Seen from the camera its border are the lines LA, LB and AB, straight lines of the
+// image; 1/z along the camera's axis is linear over the image, too. So four linear functions tell everything, wherever the plane
+// lies: behind the camera, through it, seen edge-on, out to infinity. Nothing is clipped or divided.
 //
-// The ray of a pixel crosses the plane where u >= 0, v < 0, e >= 0, and k > 1 / z of the ray's end. u and v are the lines LA and LB,
-// computed from one vertex alone: planes that share it share the line, bit for bit, and a ray crosses one of them or the other.
+// The ray of a pixel crosses the plane where u >= 0, v < 0, e >= 0, and k > 1 / z of the ray's end. u and v are the lines LA and
+// LB, computed from one vertex alone: planes that share it share the line, bit for bit, and a ray crosses one of them or the
+// other.
 struct ShadowQuad {
   ScreenFunction u, v, e, k;
   std::int32_t change;  // of the number of triangles between ray and light

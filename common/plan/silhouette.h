@@ -1,8 +1,8 @@
 // Silhouettes of triangle soups toward a light.
 //
-// Every triangle, turned to face the light, throws a volume behind it. Where two triangles meet in an edge that they run through in
-// opposite ways, the sides of their volumes cancel. What is left over, edge by edge as a signed sum, bounds the count "triangles
-// between a point and the light", whatever the mesh: closed, open, or with many triangles at one edge.
+// Every triangle, turned to face the light, throws a volume behind it. Where two triangles meet in an edge that they run through
+// in opposite ways, the sides of their volumes cancel. What is left over, edge by edge as a signed sum, bounds the count
+// "triangles between a point and the light", whatever the mesh: closed, open, or with many triangles at one edge.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ struct HomogeneousLight {
 };
 
 struct SilhouetteEdge {
-  std::uint32_t a, b;         // vertices; seen from the light, what throws the shadow lies to the left of a -> b where multiplicity > 0
+  std::uint32_t a, b;  // vertices; seen from the light, what throws the shadow lies to the left of a -> b where multiplicity > 0
   std::int32_t multiplicity;  // not 0
 };
 
@@ -60,12 +60,13 @@ std::vector<SilhouetteEdge> silhouette(const MeshEdges&, std::span<const glm::dv
 // 1 where the light stands on the side from which a, b, c turn counter-clockwise; else -1.
 int facing(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const HomogeneousLight&);
 
-// Sign of det(light, a, b), positions relative to the camera: on which side of the plane of light and edge the camera stands. Never
-// 0: where the determinant is, the light is moved by an infinitesimal amount, the same for every edge. beside(b, a) is the opposite.
+// Sign of det(light, a, b), positions relative to the camera: on which side of the plane of light and edge the camera stands.
+// Never 0: where the determinant is, the light is moved by an infinitesimal amount, the same for every edge. beside(b, a) is the
+// opposite.
 int beside(const glm::dvec3& light, const glm::dvec3& a, const glm::dvec3& b);
 
-// Whether the triangle stands between the camera (the origin) and the light, by the same signs: the number of those that do and the
-// crossings of shadow planes agree even where a plane passes through the camera.
+// Whether the triangle stands between the camera (the origin) and the light, by the same signs: the number of those that do and
+// the crossings of shadow planes agree even where a plane passes through the camera.
 bool covers(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const HomogeneousLight&);
 
 // The edges of a mesh, built once as long as the mesh lives. Safe from any thread.
@@ -73,7 +74,7 @@ std::shared_ptr<const MeshEdges> mesh_edges(const std::shared_ptr<const Mesh>&);
 
 // The silhouette of a mesh where `transform` puts it; `light` in world coordinates. Kept for some lights and places of a mesh, so
 // that nothing is computed for what has not moved. Safe from any thread.
-std::shared_ptr<const std::vector<SilhouetteEdge>> mesh_silhouette(const std::shared_ptr<const Mesh>&, const glm::dmat4& transform,
-                                                                   const HomogeneousLight& light);
+std::shared_ptr<const std::vector<SilhouetteEdge>> mesh_silhouette(const std::shared_ptr<const Mesh>&,
+                                                                   const glm::dmat4& transform, const HomogeneousLight& light);
 
 }  // namespace airlight

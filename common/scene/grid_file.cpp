@@ -146,7 +146,9 @@ GridFile read_tree(const std::string& path, std::string_view bytes, const VdbFil
   const openvdb::CoordBBox box = box_of(*grid, path, progress);
   if (box.empty())
     throw InputError(fmt::format("{}: grid \"{}\" has no value above 0, expected at least one", path, printable(entry.name)));
-  const auto size = [&](std::size_t axis) { return static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1; };
+  const auto size = [&](std::size_t axis) {
+    return static_cast<double>(box.max()[axis]) - static_cast<double>(box.min()[axis]) + 1;
+  };
   if (size(0) * size(1) * size(2) > static_cast<double>(most_cells)) {
     throw InputError(fmt::format("{}: grid \"{}\" has {} x {} x {} cells, expected at most {} in all", path,
                                  printable(entry.name), size(0), size(1), size(2), most_cells));

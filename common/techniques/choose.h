@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/plan/goal.h"
+#include "common/techniques/goal.h"
 #include "common/techniques/technique.h"
 
 namespace airlight {

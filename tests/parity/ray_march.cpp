@@ -64,10 +64,10 @@ const NamedCase cases[] = {
     {"ray_march/gaussians", [](Extent e) { return march(e, {.gaussians = 7, .steps = 6, .parts = false}); }},
     {"ray_march/gaussians_marched",
      [](Extent e) { return march(e, {.extinction = 0, .gaussians = 5, .light_depth = marched, .sky_distance = 100}); }},
-    {"ray_march/many_gaussians",
-     [](Extent e) { return march(e, {.gaussians = 132, .steps = 1, .parts = false}); }},
+    {"ray_march/many_gaussians", [](Extent e) { return march(e, {.gaussians = 132, .steps = 1, .parts = false}); }},
     {"ray_march/grid", [](Extent e) { return march(e, {.extinction = 0, .grid = true, .phase = {}, .sky_distance = 100}); }},
-    {"ray_march/everything", [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .light_depth = marched}); }},
+    {"ray_march/everything",
+     [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .light_depth = marched}); }},
 };
 
 // More rounds than llvmpipe's loops may make at once: several dispatches, by steps and by lights.

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "common/plan/goal.h"
+#include "common/techniques/goal.h"
 
 namespace airlight {
 namespace {

@@ -42,7 +42,8 @@ Mesh cube() {
   return mesh;
 }
 
-// `count` triangles with corners drawn from few points, so that many share an edge, some of them twice over and some without area.
+// `count` triangles with corners drawn from few points, so that many share an edge, some of them twice over and some without
+// area.
 Mesh soup(std::uint32_t stream, unsigned count) {
   Mesh mesh;
   for (unsigned i = 0; i < 12; ++i) mesh.positions.emplace_back(random_point(stream, i, 1));
@@ -193,7 +194,8 @@ TEST(Silhouette, CoverOfTheCameraIsTheSameCount) {
   EXPECT_GT(covered, 100);
 }
 
-// The light exactly behind a vertex or an edge, as in scenes of round numbers: of a closed mesh the way still crosses an even count.
+// The light exactly behind a vertex or an edge, as in scenes of round numbers: of a closed mesh the way still crosses an even
+// count.
 TEST(Silhouette, TiesAreBrokenForAllTrianglesAlike) {
   const Mesh mesh = cube();
   int ties = 0;

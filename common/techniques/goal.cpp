@@ -1,4 +1,4 @@
-#include "common/plan/goal.h"
+#include "common/techniques/goal.h"
 
 #include <charconv>
 #include <cmath>
