@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "app/command.h"
 #include "common/spelling.h"
@@ -64,7 +65,7 @@ struct Flags {
   CompareCommand compare;
   std::string resolution, log_level = "warning";
   std::vector<std::string> settings;
-  std::string error, budget;
+  std::optional<std::string> error, budget;
   bool quiet = false;
 };
 

@@ -25,13 +25,13 @@ HWY_INLINE Real3 to_center(const GaussianDensity& g, const Real3& p) {
   return {g.center.x - p.x, g.center.y - p.y, g.center.z - p.z};
 }
 
-// Extinction [1/m].
-HWY_INLINE Real extinction_at(const GaussianDensity& g, const Real3& p) {
+// Extinction and emission beside those at the centre; 0 beyond its reach.
+HWY_INLINE Real falloff_at(const GaussianDensity& g, const Real3& p) {
   const Real3 e = to_center(g, p);
   const Real squared = dot(e, e);
   const Mask within = squared < g.reach * g.reach;
   if (!any_lane(within)) return 0.0;
-  return select(within, gaussian_falloff(1 / g.radius, squared) * g.extinction, 0.0);
+  return select(within, gaussian_falloff(1 / g.radius, squared), 0.0);
 }
 
 // A grid and its table.
@@ -120,7 +120,7 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
       Real extinction = 0.0;
       for (int k = 0; k < n; ++k) {
         const Real3 p = along(from, direction, fma(step, static_cast<float>(k) + 0.5F, select(meets, s.begin, 0.0)));
-        for (const GaussianDensity& g : *medium.gaussians) extinction += extinction_at(g, p);
+        for (const GaussianDensity& g : *medium.gaussians) extinction = fma(falloff_at(g, p), g.extinction, extinction);
       }
       sum += extinction * step;
     }

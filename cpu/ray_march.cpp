@@ -64,6 +64,7 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view)
   const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
   glow_most = largest(a.emission) > 0 ? largest(a.emission) / std::max(a.extinction, 1e-30F) : 0;
   for (const GaussianDensity& one : a.gaussians) glow_most += largest(one.emission) / one.extinction;
+  glow_most = std::min(glow_most, 1e30F);
 }
 
 HWY_INLINE void March::begin(int first, const Real3& direction) {
@@ -107,10 +108,10 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
     for (int c = 0; c < 3; ++c) here.scattering[c] = fma(extinction, albedo[c], here.scattering[c]);
   };
   for (const GaussianDensity& g : a.gaussians) {
-    const Real extinction = extinction_at(g, p);
-    add(extinction, g.albedo);
+    const Real falloff = falloff_at(g, p);
+    add(falloff * g.extinction, g.albedo);
     if (!emits) continue;
-    for (int c = 0; c < 3; ++c) here.emission[c] = fma(extinction, g.emission[c] / g.extinction, here.emission[c]);
+    for (int c = 0; c < 3; ++c) here.emission[c] = fma(falloff, g.emission[c], here.emission[c]);
   }
   if (a.grid) add(medium.grid.extinction_at(p), a.grid.albedo);
   if (one_albedo) {

@@ -18,12 +18,13 @@ vec4 center_radius(int g) { return gaussian_values[3 * g]; }
 vec4 albedo_extinction_of(int g) { return gaussian_values[3 * g + 1]; }
 vec4 emission_reach(int g) { return gaussian_values[3 * g + 2]; }
 
-float gaussian_extinction(int g, vec3 p) {
+// Extinction and emission beside those at the centre; 0 beyond its reach.
+float gaussian_falloff_at(int g, vec3 p) {
   vec3 e = center_radius(g).xyz - p;
   float squared = dot3(e, e);
   float reach = emission_reach(g).w;
   if (squared >= reach * reach) return 0.0;
-  return gaussian_falloff(1.0 / center_radius(g).w, squared) * albedo_extinction_of(g).w;
+  return gaussian_falloff(1.0 / center_radius(g).w, squared);
 }
 
 float grid_coordinate_of(int axis, vec3 p) {
@@ -94,7 +95,7 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
     float extinction = 0.0;
     for (int k = 0; k < n; ++k) {
       vec3 p = fma(direction, vec3(fma(size, float(k) + 0.5, s.x)), from);
-      for (int g = 0; g < medium_counts.x; ++g) extinction += gaussian_extinction(g, p);
+      for (int g = 0; g < medium_counts.x; ++g) extinction = fma(gaussian_falloff_at(g, p), albedo_extinction_of(g).w, extinction);
     }
     sum += extinction * size;
   }

@@ -51,6 +51,7 @@ void bound_ray() {
 #ifdef WITH_GAUSSIANS
   for (int g = 0; g < medium_counts.x; ++g) most += largest(emission_reach(g).xyz) / albedo_extinction_of(g).w;
 #endif
+  most = min(most, 1e30);
   for (int k = 0; k < light_count.x; ++k) {
     vec4 v = light_values[2 * k];
     float foot;
@@ -78,10 +79,11 @@ Local local_at(vec3 p, bool all) {
   if (!all) return here;
 #ifdef WITH_GAUSSIANS
   for (int g = 0; g < medium_counts.x; ++g) {
-    float extinction = gaussian_extinction(g, p);
+    float falloff = gaussian_falloff_at(g, p);
+    float extinction = falloff * albedo_extinction_of(g).w;
     here.extinction += extinction;
     here.scattering += extinction * albedo_extinction_of(g).xyz;
-    here.emission += extinction * (emission_reach(g).xyz / albedo_extinction_of(g).w);
+    here.emission += falloff * emission_reach(g).xyz;
   }
 #endif
 #ifdef WITH_GRID

@@ -38,11 +38,14 @@ FORMULA real grid_extinction(table t, real cx, real cy, real cz) {
   return weighted_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
 }
 
+// Which brick of four lookups a coordinate falls in.
+FORMULA real grid_brick(real coordinate, real n) {
+  return floor((min(floor(max(coordinate, -1.0)), n - 1.0) + 1.0) * 0.25);
+}
+
 // Bricks of 4 x 4 x 4 lookups: the numbers of bricks an axis, then for each the largest value that a lookup in it can meet, x fastest. Where
 // it is 0, so is grid_extinction(). nx, ny, nz: cells.
 FORMULA real grid_bound(table bricks, real cx, real cy, real cz, real nx, real ny, real nz) {
-  real i = floor((min(floor(max(cx, -1.0)), nx - 1.0) + 1.0) * 0.25);
-  real j = floor((min(floor(max(cy, -1.0)), ny - 1.0) + 1.0) * 0.25);
-  real k = floor((min(floor(max(cz, -1.0)), nz - 1.0) + 1.0) * 0.25);
-  return fetch(bricks, fma(fma(k, element(bricks, 1), j), element(bricks, 0), i) + 3.0);
+  real row = fma(grid_brick(cz, nz), element(bricks, 1), grid_brick(cy, ny));
+  return fetch(bricks, fma(row, element(bricks, 0), grid_brick(cx, nx)) + 3.0);
 }

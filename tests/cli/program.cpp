@@ -123,6 +123,18 @@ TEST_F(Program, CompareSaysWhetherImagesDiffer) {
   refused("compare a.exr a.exr --image depth", 2, "depth");
 }
 
+TEST_F(Program, ChoosesForAGoal) {
+  const Told told = work.run("render scene.json -o a.pfm --error 1%");
+  EXPECT_EQ(told.code, 0);
+  EXPECT_NE(told.out.find("shadow-planes table_nodes=16: "), std::string::npos) << told.out;
+  EXPECT_NE(work.run("explain scene.json --budget 30s").out.find("chosen: shadow-planes"), std::string::npos);
+  refused("render scene.json -o b.pfm --error 0.00001%", 2, "expected to meet");
+  refused("render scene.json -o b.pfm --error 1ms", 2, "such as 1% or 0.01");
+  refused("render scene.json -o b.pfm --error 1% --budget 1s", 2, "expected one of them");
+  refused("render scene.json -o b.pfm --error 1% --set table_nodes=16", 2, "expected one of the two");
+  refused("render scene.json -o b.pfm --budget 1s --backend gl", 2, "--budget");
+}
+
 TEST_F(Program, ExplainsAndCounts) {
   const Told told = work.run("explain scene.json");
   EXPECT_EQ(told.code, 0);

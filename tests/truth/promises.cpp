@@ -44,7 +44,7 @@ TEST_P(Promises, AreKeptWithinAFactorOfTwo) {
   int kept = 0;
   for (const char* asked : {"10%", "3%", "1%", "0.3%", "0.1%", "0.03%"}) {
     RenderSettings settings;
-    settings.goal = goal_of(asked, "");
+    settings.goal = goal_of(asked, {});
     settings.resolution = extent;
     std::string chosen;
     try {
@@ -75,21 +75,21 @@ INSTANTIATE_TEST_SUITE_P(Truth, Promises, testing::ValuesIn(scenes()),
 // The search itself, by the models alone.
 TEST(Choose, TakesTheCheapestOrTheBestAndSaysWhatComesNearest) {
   const Scene scene = lamp_in_gaussians();
-  const Choice rough = choose(scene, {800, 600}, goal_of("10%", ""), "", 2),
-               fine = choose(scene, {800, 600}, goal_of("1%", ""), "", 2);
+  const Choice rough = choose(scene, {800, 600}, goal_of("10%", {}), "", 2),
+               fine = choose(scene, {800, 600}, goal_of("1%", {}), "", 2);
   EXPECT_LE(rough.estimate.error, 0.1);
   EXPECT_LE(fine.estimate.error, 0.01);
   EXPECT_LT(rough.estimate.seconds, fine.estimate.seconds);
-  const Choice timed = choose(scene, {800, 600}, goal_of("", "2s"), "", 2);
+  const Choice timed = choose(scene, {800, 600}, goal_of({}, "2s"), "", 2);
   EXPECT_LE(timed.estimate.seconds, 2);
   try {
-    choose(scene, {800, 600}, goal_of("0.00001%", ""), "", 2);
+    choose(scene, {800, 600}, goal_of("0.00001%", {}), "", 2);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("nearest is marching"), std::string::npos) << error.what();
   }
   RenderSettings both;
-  both.goal = goal_of("1%", "");
+  both.goal = goal_of("1%", {});
   both.knobs = {{"steps", "4"}};
   EXPECT_THROW(chosen_for_goal(scene, both, {}), InputError);
 }

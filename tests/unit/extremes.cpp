@@ -95,15 +95,45 @@ Scene extreme_scene(std::uint32_t seed) {
   return s;
 }
 
+// The same with Gaussians and a grid, for which no surface throws a shadow.
+Scene extreme_medium(std::uint32_t seed) {
+  Scene s = extreme_scene(seed);
+  for (Surface& surface : s.surfaces) surface.casts_shadow = false;
+  Draw draw(seed + 5000);
+  const int gaussians = static_cast<int>(draw.between(0, 5));
+  for (int i = 0; i < gaussians; ++i) {
+    Gaussian g;
+    g.radius = draw.of(std::array{1e-6, 1e-3, 0.5, 3.0, 1e3, 1e6});
+    g.center = s.camera.position + draw.vector(draw.of(std::array{0.0, 1.0, 10.0, 1e8}));
+    g.extinction = draw.of(std::array{0.0, 1e-30, 1e-6, 1.0, 1e3, 1e6});
+    g.albedo = glm::dvec3(draw.of(std::array{0.0, 0.5, 1.0}));
+    g.emission = glm::dvec3(draw.of(std::array{0.0, 1.0, 1e12}));
+    s.medium.gaussians.push_back(g);
+  }
+  if (draw.unit() < 0.5) {
+    auto voxels = std::make_shared<VoxelGrid>();
+    voxels->size = {static_cast<int>(draw.between(1, 9)), static_cast<int>(draw.between(1, 3)), 5};
+    for (int i = 0; i < voxels->size.x * voxels->size.y * voxels->size.z; ++i)
+      voxels->values.push_back(static_cast<float>(draw.of(std::array{0.0, 0.0, 1e-30, 1.0, 1e3})));
+    GridMedium grid{.voxels = voxels, .scale = draw.of(std::array{1e-6, 1.0, 1e3}), .albedo = glm::dvec3(draw.unit())};
+    const double size = draw.of(std::array{1e-6, 0.3, 10.0, 1e6});
+    grid.transform = glm::dmat4(size);
+    grid.transform[1] *= draw.of(std::array{1.0, 1e-3});
+    grid.transform[3] = glm::dvec4(s.camera.position - size * draw.vector(4), 1);
+    s.medium.grid = grid;
+  }
+  return s;
+}
+
 class Extremes : public testing::TestWithParam<std::string> {};
 
-TEST_P(Extremes, GiveFiniteNumbers) {
-  Renderer renderer({.backend = GetParam(), .gl_context = "osmesa"});
+void expect_finite(const std::string& backend, Scene (*make)(std::uint32_t), const RenderSettings& asked) {
+  Renderer renderer({.backend = backend, .gl_context = "osmesa"});
   float largest = 0;
   constexpr std::uint32_t scenes = 120;
   for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
-    const Scene scene = extreme_scene(seed);
-    RenderSettings settings;
+    const Scene scene = make(seed);
+    RenderSettings settings = asked;
     settings.images = image_names(scene);
     const Frame frame = renderer.render(scene, settings);
     for (const NamedImage& i : frame.images) {
@@ -114,6 +144,17 @@ TEST_P(Extremes, GiveFiniteNumbers) {
     }
   }
   std::printf("%u scenes, largest radiance %.3g\n", scenes, static_cast<double>(largest));
+}
+
+TEST_P(Extremes, GiveFiniteNumbers) { expect_finite(GetParam(), extreme_scene, {}); }
+
+TEST_P(Extremes, GiveFiniteNumbersWhenMarched) {
+  RenderSettings settings;
+  settings.technique = "marching";
+  settings.knobs = {{"steps", "6"}, {"light_steps", "3"}};
+  expect_finite(GetParam(), extreme_medium, settings);
+  settings.knobs.emplace_back("shadow", "march");
+  expect_finite(GetParam(), extreme_medium, settings);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Extremes, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
