@@ -119,7 +119,7 @@ def choice(points, backend, error):
 
 
 def pareto(out):
-    folder = os.path.join(out, "pareto")
+    folder = os.path.join(out, "fronts")
     blocks = []
     for name in sorted(os.listdir(folder)):
         if not name.endswith(".json"):
@@ -154,7 +154,7 @@ def main():
     with open(RESULTS, encoding="utf-8") as file:
         text = file.read()
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
-              "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "pareto")}
+              "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

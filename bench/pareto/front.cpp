@@ -40,6 +40,7 @@ void mark_fronts(std::vector<Point>& points) {
 
 std::vector<bool> near_front(const std::vector<Point>& points, double slack) {
   std::vector<bool> near;
+  near.reserve(points.size());
   for (const Point& p : points) {
     near.push_back(std::isfinite(p.error.everywhere) && std::none_of(points.begin(), points.end(), [&](const Point& other) {
                      return same_backend(other, p) && other.configuration.technique == p.configuration.technique &&

@@ -91,7 +91,7 @@ def ours(name):
     if not os.path.exists(path):
         return []
     with open(path, newline="") as file:
-        return [(f"{row['technique']} on {row['backend']}", float(row["error"]), float(row["ms"]) / 1000) for row in csv.DictReader(file)]
+        return [(f"{row['technique']} on {row['backend']}", float(row["error"]), float(row["ms"] or 0) / 1000) for row in csv.DictReader(file)]
 
 
 def front(points):
