@@ -6,6 +6,7 @@ OUT stays as it is. Figures of the fronts are copied to docs/images.
 """
 import csv
 import json
+import math
 import os
 import re
 import shutil
@@ -17,14 +18,11 @@ IMAGES = os.path.join(ROOT, "docs", "images")
 
 
 def short(value):
-    """Three digits, no exponent."""
+    """Three digits, of small values two; no exponent."""
     if value == 0:
         return "0"
-    digits = 3
-    while digits > 0 and abs(value) >= 10 ** (4 - digits):
-        digits -= 1
-    text = f"{value:.{digits}f}" if abs(value) >= 0.1 else f"{value:.2g}"
-    return f"{float(text):f}".rstrip("0").rstrip(".") if "e" in text else text
+    digits = max(0, (2 if value >= 0.1 else 1) - math.floor(math.log10(value)))
+    return f"{value:.{digits}f}"
 
 
 def table(head, rows):
@@ -133,10 +131,12 @@ def pareto(out):
         rows, last = [], None
         for percent in (30, 10, 3, 1, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001):
             row = [cell for b in backends for cell in choice(m["points"], b, percent / 100)]
-            if any(row) and row != last:
-                rows.append([f"{percent:g} %"] + row)
-            elif rows and row == last:
+            if not any(row):
+                break
+            if row == last:
                 rows[-1][0] = f"{percent:g} %"  # the smallest error that this is good for
+            else:
+                rows.append([f"{percent:g} %"] + row)
             last = row
         block = [f"**{scene}**, {len(m['points'])} configurations:", f"![{scene}: time against error](images/pareto_{scene}.svg)"]
         if rows:
@@ -159,7 +159,7 @@ def main():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
             sys.exit(f"docs/RESULTS.md: expected one block between {begin} and {end}")
-        if not os.path.exists(os.path.join(out, needs)):
+        if not os.path.exists(os.path.join(out, needs)) or os.path.getsize(os.path.join(out, needs)) == 0:
             print(f"{name}: nothing measured, kept", file=sys.stderr)
             continue
         text = text[:text.index(begin) + len(begin)] + "\n" + make(out) + "\n" + text[text.index(end):]
