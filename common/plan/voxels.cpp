@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "common/plan/hash.h"
+#include "common/plan/upload.h"
 
 namespace airlight {
 
@@ -85,12 +86,9 @@ Plan::Upload voxels_of(const GridMedium& grid, std::uint32_t id) {
   key.add(glm::vec3(grid.voxels->size));
   key.bytes(std::as_bytes(std::span(grid.voxels->values)));
   key.add(grid.scale);
-  const std::size_t ring = in_ring(grid.voxels->size).count();
-  return {Buffer{{id}, sizeof(float) * (6 + ring + bricks_of(in_ring(grid.voxels->size)).count())}, key.value(), [grid] {
-            const std::vector<float> table = voxel_table(grid);
-            const auto bytes = std::as_bytes(std::span(table));
-            return std::vector<std::byte>(bytes.begin(), bytes.end());
-          }};
+  const Size ring = in_ring(grid.voxels->size);
+  const Buffer buffer{{id}, sizeof(float) * (6 + ring.count() + bricks_of(ring).count())};
+  return table_upload(buffer, key.value(), [grid] { return voxel_table(grid); });
 }
 
 }  // namespace airlight

@@ -5,9 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "common/plan/geometry.h"
-#include "common/plan/images.h"
-#include "common/plan/indirect.h"
+#include "common/plan/frame.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -24,125 +22,66 @@ std::optional<std::string> refuses(const Scene& scene) {
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t {
-    geometry_id = 1,
-    voxels_id = 4,
-    per_light_id = 5,
-    light_transmittance_id = 6,
-    indirect_tables_id = 7,
-    first_image_id = 8
-  };
-  Plan plan;
+  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, light_transmittance_id };
   const Medium& medium = scene.medium;
-  const View view = view_of(scene, request);
-  std::vector<std::size_t> light_index;
-  const std::vector<Light> lights = lights_of(scene, &light_index);
+  FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
   const bool uneven = !gaussians.empty() || medium.grid;
-  const bool surfaces = !scene.surfaces.empty();
-  const bool dark = medium.empty();
-  const glm::vec3 ambient = dark ? glm::vec3(0) : glm::vec3(medium.ambient);
-  const auto extinction = static_cast<float>(medium.extinction);
   // Knobs that this scene does not need are held, so that they make nothing stale.
   const bool marched = request.knobs.choice("shadow") == "march" && !gaussians.empty();
   const LightDepth light_depth = marched ? LightDepth::march : LightDepth::analytic;
   const int light_steps = marched || medium.grid ? static_cast<int>(request.knobs.number("light_steps")) : 1;
 
-  Images images(request, plan, first_image_id);
-  const Image distance = images.make("depth", Format::r32f);
-  const Image normal = images.make("normal", Format::rgb32f);
-  const Image material = images.make("material", Format::r32f);
-  const Image transmittance = images.make("transmittance", Format::r32f);
-  const Image optical_depth = images.optional("optical_depth", Format::r32f);
-  const Image surface = images.make("surface", Format::rgb32f);
-  const Image direct = images.optional("surface.direct", Format::rgb32f);
-  const Image surface_ambient = images.optional("surface.ambient", Format::rgb32f);
-  const Image airlight = images.make("airlight", Format::rgb32f);
-  const Image beauty = images.make("beauty", Format::rgb32f);
-  const Image per_light = per_light_images(scene, request, light_index, per_light_id, plan);
-
-  const Geometry geometry = geometry_of(scene, geometry_id);
-  plan.uploads.push_back(geometry.positions);
-  plan.uploads.push_back(geometry.normals);
-  plan.uploads.push_back(geometry.indices);
-  plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
-                                          .normals = geometry.normals.buffer,
-                                          .triangles = geometry.indices.buffer,
-                                          .view = view,
-                                          .distance = distance,
-                                          .normal = normal,
-                                          .material = material},
-                        "what each pixel sees"});
   Buffer voxels;
   GridDensity grid;
   if (medium.grid) {
-    plan.uploads.push_back(voxels_of(*medium.grid, voxels_id));
-    voxels = plan.uploads.back().buffer;
+    frame.plan.uploads.push_back(voxels_of(*medium.grid, voxels_id));
+    voxels = frame.plan.uploads.back().buffer;
     grid = grid_density(*medium.grid, scene.camera.position);
   }
-  plan.steps.push_back({RayMarch{.distance = distance,
-                                 .voxels = voxels,
-                                 .lights = lights,
-                                 .gaussians = gaussians,
-                                 .grid = grid,
-                                 .view = view,
-                                 .phase = medium.phase,
-                                 .extinction = extinction,
-                                 .sky_distance = static_cast<float>(std::min(scene.sky_distance, 1e30)),
-                                 .albedo = medium.albedo,
-                                 .ambient = ambient,
-                                 .emission = medium.emission,
-                                 .steps = static_cast<int>(request.knobs.number("steps")),
-                                 .light_steps = light_steps,
-                                 .light_depth = light_depth,
-                                 .airlight = airlight,
-                                 .per_light = per_light,
-                                 .transmittance = transmittance,
-                                 .optical_depth = optical_depth},
-                        "the view ray through the medium, step by step"});
+  frame.plan.steps.push_back({RayMarch{.distance = frame.distance,
+                                       .voxels = voxels,
+                                       .lights = frame.lights,
+                                       .gaussians = gaussians,
+                                       .grid = grid,
+                                       .view = frame.view,
+                                       .phase = medium.phase,
+                                       .extinction = frame.extinction,
+                                       .sky_distance = frame.sky_distance,
+                                       .albedo = medium.albedo,
+                                       .ambient = frame.ambient,
+                                       .emission = medium.emission,
+                                       .steps = static_cast<int>(request.knobs.number("steps")),
+                                       .light_steps = light_steps,
+                                       .light_depth = light_depth,
+                                       .airlight = frame.airlight,
+                                       .per_light = frame.per_light,
+                                       .transmittance = frame.transmittance,
+                                       .optical_depth = frame.optical_depth},
+                              "the view ray through the medium, step by step"});
   Image light_transmittance;
-  if (uneven && surfaces && !lights.empty()) {
-    light_transmittance = {{light_transmittance_id}, Format::r32f, request.extent, static_cast<int>(lights.size()), false};
-    plan.steps.push_back({LightMarch{.distance = distance,
-                                     .voxels = voxels,
-                                     .lights = lights,
-                                     .gaussians = gaussians,
-                                     .grid = grid,
-                                     .view = view,
-                                     .light_steps = light_steps,
-                                     .light_depth = light_depth,
-                                     .light_transmittance = light_transmittance},
-                          "what of each light reaches the surfaces"});
+  if (uneven && frame.has_surfaces() && !frame.lights.empty()) {
+    light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
+    frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
+                                           .voxels = voxels,
+                                           .lights = frame.lights,
+                                           .gaussians = gaussians,
+                                           .grid = grid,
+                                           .view = frame.view,
+                                           .light_steps = light_steps,
+                                           .light_depth = light_depth,
+                                           .light_transmittance = light_transmittance},
+                                "what of each light reaches the surfaces"});
   }
-  SurfaceAirlight given;
-  given.distance = distance, given.normal = normal, given.material = material, given.transmittance = transmittance;
-  given.lights = lights, given.view = view;
-  const Image indirect = add_indirect(scene, request, given, indirect_tables_id, images, plan);
-  plan.steps.push_back({SurfaceShading{.distance = distance,
-                                       .normal = normal,
-                                       .material = material,
-                                       .transmittance = transmittance,
-                                       .light_transmittance = light_transmittance,
-                                       .indirect = indirect,
-                                       .materials = materials_of(scene),
-                                       .lights = lights,
-                                       .view = view,
-                                       .extinction = extinction,
-                                       .ambient = ambient,
-                                       .background = scene.background,
-                                       .surface = surface,
-                                       .surface_direct = direct,
-                                       .surface_ambient = surface_ambient},
-                        "direct light on the surfaces, attenuated on both ways"});
-  plan.steps.push_back({Compose{.surface = surface, .airlight = airlight, .beauty = beauty}, "surface + airlight"});
+  frame.shade(light_transmittance);
 
   // What this scene does not need.
-  if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
-  if (gaussians.size() < medium.gaussians.size()) plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
+  if (gaussians.size() < medium.gaussians.size())
+    frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
   if (!uneven)
-    plan.skips.push_back({"marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
-  if (uneven && !surfaces) plan.skips.push_back({"light_march", "no surface"});
-  return plan;
+    frame.plan.skips.push_back({"marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
+  if (uneven && !frame.has_surfaces()) frame.plan.skips.push_back({"light_march", "no surface"});
+  return frame.finish();
 }
 
 // The farthest that a view ray goes [m]; infinite where one may hit nothing.

@@ -1,5 +1,7 @@
 #include "common/techniques/reference.h"
 
+#include "common/plan/frame.h"
+
 namespace airlight {
 
 Technique reference_technique() {
@@ -21,14 +23,7 @@ Technique reference_technique() {
        .choices = {"on", "off"},
        .meaning = "whether surfaces cast shadows on each other and into the medium",
        .sweep = {}},
-      {.name = "indirect",
-       .kind = Knob::Kind::choice,
-       .standard = "unbounded",
-       .least = 0,
-       .most = 0,
-       .choices = {"unbounded", "off"},
-       .meaning = "light scattered once on its way to surfaces, as of an unbounded homogeneous medium without shadows",
-       .sweep = {}},
+      indirect_knob(),
   };
   t.refuses = [](const Scene&) { return std::optional<std::string>(); };
   return t;

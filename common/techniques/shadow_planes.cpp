@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "common/plan/airlight_tables.h"
-#include "common/plan/geometry.h"
+#include "common/plan/frame.h"
 #include "common/plan/hash.h"
-#include "common/plan/images.h"
-#include "common/plan/indirect.h"
 #include "common/plan/shadow_volumes.h"
+#include "common/plan/upload.h"
 
 namespace airlight {
 
@@ -50,56 +49,15 @@ bool any_shadow(const Scene& scene, const std::vector<std::size_t>& lights, bool
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t {
-    geometry_id = 1,
-    tables_id = 4,
-    per_light_id = 5,
-    volumes_id = 6,
-    scattered_id = 7,
-    lit_id = 8,
-    indirect_tables_id = 9,
-    first_image_id = 10
-  };
-  Plan plan;
+  enum : std::uint32_t { tables_id = FramePlan::first_own_id, volumes_id, scattered_id, lit_id };
   const Medium& medium = scene.medium;
-  const View view = view_of(scene, request);
-  std::vector<std::size_t> light_index;
-  const std::vector<Light> lights = lights_of(scene, &light_index);
-  const auto extinction = static_cast<float>(medium.extinction);
-  const auto sky = static_cast<float>(std::min(scene.sky_distance, 1e30));
-  const bool foggy = extinction > 0;
-  const glm::vec3 ambient = foggy ? glm::vec3(medium.ambient) : glm::vec3(0);
-
-  Images images(request, plan, first_image_id);
-  const Image distance = images.make("depth", Format::r32f);
-  const Image normal = images.make("normal", Format::rgb32f);
-  const Image material = images.make("material", Format::r32f);
-  const Image transmittance = images.make("transmittance", Format::r32f);
-  const Image optical_depth = images.optional("optical_depth", Format::r32f);
-  const Image surface = images.make("surface", Format::rgb32f);
-  const Image direct = images.optional("surface.direct", Format::rgb32f);
-  const Image surface_ambient = images.optional("surface.ambient", Format::rgb32f);
-  const Image airlight = images.make("airlight", Format::rgb32f);
-  const Image beauty = images.make("beauty", Format::rgb32f);
-  const Image per_light = per_light_images(scene, request, light_index, per_light_id, plan);
-
   // Section 2 of the paper: what each pixel sees, and through how much medium.
-  const Geometry geometry = geometry_of(scene, geometry_id);
-  plan.uploads.push_back(geometry.positions);
-  plan.uploads.push_back(geometry.normals);
-  plan.uploads.push_back(geometry.indices);
-  plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
-                                          .normals = geometry.normals.buffer,
-                                          .triangles = geometry.indices.buffer,
-                                          .view = view,
-                                          .distance = distance,
-                                          .normal = normal,
-                                          .material = material},
-                        "what each pixel sees"});
+  FramePlan frame(scene, request);
+  const bool foggy = frame.extinction > 0;
 
   // Section 4: which parts of each ray the lights reach. Shadow planes start at the casters' silhouettes.
   const bool scatters = foggy && medium.albedo != glm::dvec3(0);
-  const std::vector<Light> scattered_lights = scatters || per_light ? lights : std::vector<Light>{};
+  const std::vector<Light> scattered_lights = scatters || frame.per_light ? frame.lights : std::vector<Light>{};
   Buffer tables;
   if (foggy && std::any_of(scattered_lights.begin(), scattered_lights.end(), [](const Light& l) { return !l.directional; })) {
     tables = {{tables_id}, 0};
@@ -107,81 +65,57 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     Hash key;
     key.add(medium.phase);
     key.add(nodes);
-    plan.uploads.push_back({tables, key.value(), [phase = medium.phase, nodes] {
-                              const std::vector<float> values = airlight_tables(phase, nodes);
-                              const auto bytes = std::as_bytes(std::span(values));
-                              return std::vector<std::byte>(bytes.begin(), bytes.end());
-                            }});
+    frame.plan.uploads.push_back(
+        table_upload(tables, key.value(), [phase = medium.phase, nodes] { return airlight_tables(phase, nodes); }));
   }
   Image scattered, lit;
-  if (any_shadow(scene, light_index, request.knobs.choice("shadows") == "on", plan)) {
-    const int layers = static_cast<int>(lights.size());
-    if (!scattered_lights.empty() && foggy) scattered = {{scattered_id}, Format::r32f, request.extent, layers, false};
-    if (!scene.surfaces.empty()) lit = {{lit_id}, Format::r32f, request.extent, layers, false};
-    Plan::Upload volumes = shadow_volumes_upload(scene, light_index, geometry.positions.key ^ geometry.indices.key, volumes_id);
-    plan.uploads.push_back(volumes);
-    plan.steps.push_back({ShadowPlanes{.distance = distance,
-                                       .volumes = volumes.buffer,
-                                       .tables = scattered ? tables : Buffer{},
-                                       .lights = lights,
-                                       .view = view,
-                                       .phase = medium.phase,
-                                       .extinction = extinction,
-                                       .sky_distance = sky,
-                                       .scattered = scattered,
-                                       .light_transmittance = lit},
-                          "which parts of each ray the lights reach"});
+  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") == "on", frame.plan)) {
+    const int layers = static_cast<int>(frame.lights.size());
+    if (!scattered_lights.empty() && foggy) scattered = frame.handed_on(scattered_id, Format::r32f, layers);
+    if (frame.has_surfaces()) lit = frame.handed_on(lit_id, Format::r32f, layers);
+    const Plan::Upload volumes =
+        shadow_volumes_upload(scene, frame.light_index, frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
+    frame.plan.uploads.push_back(volumes);
+    frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
+                                             .volumes = volumes.buffer,
+                                             .tables = scattered ? tables : Buffer{},
+                                             .lights = frame.lights,
+                                             .view = frame.view,
+                                             .phase = medium.phase,
+                                             .extinction = frame.extinction,
+                                             .sky_distance = frame.sky_distance,
+                                             .scattered = scattered,
+                                             .light_transmittance = lit},
+                                "which parts of each ray the lights reach"});
   }
-  plan.steps.push_back({ViewTransmittance{.distance = distance,
-                                          .extinction = extinction,
-                                          .sky_distance = sky,
-                                          .transmittance = transmittance,
-                                          .optical_depth = optical_depth},
-                        "how much of it comes through the fog"});
-  // Section 3-C: light scattered once on its way to the surfaces.
-  SurfaceAirlight given;
-  given.distance = distance, given.normal = normal, given.material = material, given.transmittance = transmittance;
-  given.lights = lights, given.view = view;
-  const Image indirect = add_indirect(scene, request, given, indirect_tables_id, images, plan);
-  plan.steps.push_back({SurfaceShading{.distance = distance,
-                                       .normal = normal,
-                                       .material = material,
-                                       .transmittance = transmittance,
-                                       .light_transmittance = lit,
-                                       .indirect = indirect,
-                                       .materials = materials_of(scene),
-                                       .lights = lights,
-                                       .view = view,
-                                       .extinction = extinction,
-                                       .ambient = ambient,
-                                       .background = scene.background,
-                                       .surface = surface,
-                                       .surface_direct = direct,
-                                       .surface_ambient = surface_ambient},
-                        "direct light on the surfaces, attenuated on both ways"});
+  frame.plan.steps.push_back({ViewTransmittance{.distance = frame.distance,
+                                                .extinction = frame.extinction,
+                                                .sky_distance = frame.sky_distance,
+                                                .transmittance = frame.transmittance,
+                                                .optical_depth = frame.optical_depth},
+                              "how much of it comes through the fog"});
+  frame.shade(lit);  // section 3-C among it: light scattered once on its way to the surfaces
 
   // Section 3: light scattered once on its way along the view ray.
-  plan.steps.push_back({HomogeneousAirlight{.distance = distance,
-                                            .tables = scattered ? Buffer{} : tables,
-                                            .scattered = scattered,
-                                            .lights = scattered_lights,
-                                            .view = view,
-                                            .phase = medium.phase,
-                                            .extinction = extinction,
-                                            .sky_distance = sky,
-                                            .albedo = medium.albedo,
-                                            .ambient = ambient,
-                                            .emission = medium.emission,
-                                            .airlight = airlight,
-                                            .per_light = per_light},
-                        "light scattered once along the view ray"});
-  plan.steps.push_back({Compose{.surface = surface, .airlight = airlight, .beauty = beauty}, "surface + airlight"});
+  frame.plan.steps.push_back({HomogeneousAirlight{.distance = frame.distance,
+                                                  .tables = scattered ? Buffer{} : tables,
+                                                  .scattered = scattered,
+                                                  .lights = scattered_lights,
+                                                  .view = frame.view,
+                                                  .phase = medium.phase,
+                                                  .extinction = frame.extinction,
+                                                  .sky_distance = frame.sky_distance,
+                                                  .albedo = medium.albedo,
+                                                  .ambient = frame.ambient,
+                                                  .emission = medium.emission,
+                                                  .airlight = frame.airlight,
+                                                  .per_light = frame.per_light},
+                              "light scattered once along the view ray"});
 
   // What this scene does not need.
-  if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
-  if (scatters && !tables) plan.skips.push_back({"airlight tables", "no point light"});
-  if (!scatters) plan.skips.push_back({"airlight of the lights", "the medium scatters nothing"});
-  return plan;
+  if (scatters && !tables) frame.plan.skips.push_back({"airlight tables", "no point light"});
+  if (!scatters) frame.plan.skips.push_back({"airlight of the lights", "the medium scatters nothing"});
+  return frame.finish();
 }
 
 // Fitted to the sweeps of docs/RESULTS.md. The error is that of single precision and, growing with the third power of their

@@ -1,0 +1,150 @@
+#include "common/plan/frame.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "common/plan/hash.h"
+#include "common/plan/surface_airlight_tables.h"
+#include "common/plan/upload.h"
+
+namespace airlight {
+
+namespace {
+
+// Fixed, so that what is held under them stays where other images are wanted.
+enum : std::uint32_t { geometry_id = 1, per_light_id = 4, indirect_tables_id = 5, first_image_id = 6 };
+
+}  // namespace
+
+Knob indirect_knob() {
+  return {.name = "indirect",
+          .kind = Knob::Kind::choice,
+          .standard = "unbounded",
+          .least = 0,
+          .most = 0,
+          .choices = {"unbounded", "off"},
+          .meaning = "light scattered once on its way to surfaces, as of an unbounded homogeneous medium without shadows",
+          .sweep = {}};
+}
+
+FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
+    : scene(s),
+      request(r),
+      view(view_of(s, r)),
+      lights(lights_of(s, &light_index)),
+      extinction(static_cast<float>(s.medium.extinction)),
+      sky_distance(static_cast<float>(std::min(s.sky_distance, 1e30))),
+      ambient(s.medium.empty() ? glm::dvec3(0) : s.medium.ambient),
+      geometry(geometry_of(s, geometry_id)),
+      next_id_(first_image_id) {
+  distance = image("depth", Format::r32f);
+  normal = image("normal", Format::rgb32f);
+  material = image("material", Format::r32f);
+  transmittance = image("transmittance", Format::r32f);
+  optical_depth = optional_image("optical_depth", Format::r32f);
+  surface_ = image("surface", Format::rgb32f);
+  surface_direct_ = optional_image("surface.direct", Format::rgb32f);
+  surface_ambient_ = optional_image("surface.ambient", Format::rgb32f);
+  airlight = image("airlight", Format::rgb32f);
+  beauty_ = image("beauty", Format::rgb32f);
+  per_light = per_light_image();
+  for (const Plan::Upload* upload : {&geometry.positions, &geometry.normals, &geometry.indices}) plan.uploads.push_back(*upload);
+  plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
+                                          .normals = geometry.normals.buffer,
+                                          .triangles = geometry.indices.buffer,
+                                          .view = view,
+                                          .distance = distance,
+                                          .normal = normal,
+                                          .material = material},
+                        "what each pixel sees"});
+  if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
+}
+
+bool FramePlan::wanted(std::string_view name) const { return request.images.contains(std::string(name)); }
+
+Image FramePlan::image(std::string_view name, Format format) {
+  Image made{{next_id_++}, format, request.extent, 1, wanted(name)};
+  if (made.keep) plan.outputs.push_back({std::string(name), made, 0});
+  return made;
+}
+
+Image FramePlan::optional_image(std::string_view name, Format format) {
+  if (wanted(name)) return image(name, format);
+  ++next_id_;
+  return {};
+}
+
+// One image with a layer a light, where any of them is wanted; else absent.
+Image FramePlan::per_light_image() {
+  const Image made{{per_light_id}, Format::rgb32f, request.extent, std::max(1, static_cast<int>(lights.size())), true};
+  bool any = false;
+  for (std::size_t layer = 0; layer < lights.size(); ++layer) {
+    const std::string name = light_image_name(scene, light_index[layer]);
+    if (!wanted(name)) continue;
+    plan.outputs.push_back({name, made, static_cast<int>(layer)});
+    any = true;
+  }
+  return any ? made : Image{};
+}
+
+// Absent where the scene has nothing to scatter or to receive, or the knob does not ask for it.
+Image FramePlan::add_indirect() {
+  const Medium& medium = scene.medium;
+  const bool scatters = medium.extinction > 0 && medium.albedo != glm::dvec3(0);
+  const bool any = scatters && !lights.empty() && has_surfaces();
+  if (!any || request.knobs.choice("indirect") == "off") {
+    plan.skips.push_back({"indirect single scattering", any ? "indirect = off" : "no light, no surface or nothing scatters"});
+    return {};
+  }
+  const std::vector<Material> materials = materials_of(scene);
+  const std::vector<float> shininess = shininess_of(materials);
+  Hash key;
+  key.add(std::string_view("surface airlight"));
+  key.add(medium.phase);
+  key.add(shininess);
+  const Buffer tables{{indirect_tables_id}, 0};
+  plan.uploads.push_back(
+      table_upload(tables, key.value(), [phase = medium.phase, shininess] { return surface_airlight_tables(phase, shininess); }));
+  const Image indirect = image("surface.indirect", Format::rgb32f);
+  plan.steps.push_back({SurfaceAirlight{.distance = distance,
+                                        .normal = normal,
+                                        .material = material,
+                                        .transmittance = transmittance,
+                                        .tables = tables,
+                                        .materials = materials,
+                                        .lights = lights,
+                                        .view = view,
+                                        .extinction = extinction,
+                                        .albedo = medium.albedo,
+                                        .indirect = indirect},
+                        "light scattered once on its way to the surfaces"});
+  return indirect;
+}
+
+void FramePlan::shade(Image light_transmittance) {
+  const Image indirect = add_indirect();
+  plan.steps.push_back({SurfaceShading{.distance = distance,
+                                       .normal = normal,
+                                       .material = material,
+                                       .transmittance = transmittance,
+                                       .light_transmittance = light_transmittance,
+                                       .indirect = indirect,
+                                       .materials = materials_of(scene),
+                                       .lights = lights,
+                                       .view = view,
+                                       .extinction = extinction,
+                                       .ambient = ambient,
+                                       .background = scene.background,
+                                       .surface = surface_,
+                                       .surface_direct = surface_direct_,
+                                       .surface_ambient = surface_ambient_},
+                        "direct light on the surfaces, attenuated on both ways"});
+}
+
+Plan FramePlan::finish() {
+  plan.steps.push_back({Compose{.surface = surface_, .airlight = airlight, .beauty = beauty_}, "surface + airlight"});
+  return std::move(plan);
+}
+
+}  // namespace airlight

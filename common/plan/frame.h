@@ -1,0 +1,64 @@
+// What the plans of all techniques have in common: camera, lights and images, what each pixel sees, and the light that its
+// surface sends. Between the two stands what a technique is about.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "common/plan/geometry.h"
+#include "common/scene/scene.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+// `indirect`: unbounded | off.
+Knob indirect_knob();
+
+class FramePlan {
+ public:
+  // Begins the plan: its first step is SurfaceVisibility. Scene and request must outlive this object.
+  FramePlan(const Scene&, const FrameRequest&);
+
+  // Handles of a technique's own images and buffers begin here.
+  static constexpr std::uint32_t first_own_id = 64;
+
+  const Scene& scene;
+  const FrameRequest& request;
+  View view;
+  std::vector<std::size_t> light_index;  // position in the scene of each light below
+  std::vector<Light> lights;             // without those of zero power
+  float extinction = 0;                  // [1/m] of the homogeneous part
+  float sky_distance = 0;                // [m], at most 1e30
+  glm::vec3 ambient{0, 0, 0};            // [W/m^2/sr] source radiance; 0 without a medium
+  Geometry geometry;
+
+  // A wanted image is kept, any other only handed on. The technique fills the second row.
+  Image distance, normal, material;
+  Image transmittance, optical_depth, airlight, per_light;  // optical_depth and per_light are absent unless wanted
+
+  Plan plan;
+
+  bool has_surfaces() const { return !scene.surfaces.empty(); }
+  // An image of this frame's extent that is only handed on.
+  Image handed_on(std::uint32_t id, Format format, int layers) const { return {{id}, format, request.extent, layers, false}; }
+
+  // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
+  // SurfaceShading, or absent. After the step that makes `transmittance`.
+  void shade(Image light_transmittance);
+  // Ends the plan: composes the image from `surface` and `airlight`.
+  Plan finish();
+
+ private:
+  Image image(std::string_view name, Format);
+  Image optional_image(std::string_view name, Format);
+  Image per_light_image();
+  Image add_indirect();
+  bool wanted(std::string_view name) const;
+
+  std::uint32_t next_id_;
+  Image surface_, surface_direct_, surface_ambient_, beauty_;
+};
+
+}  // namespace airlight
