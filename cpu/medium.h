@@ -98,6 +98,19 @@ HWY_INLINE Stretch stretch_of(const std::vector<GaussianDensity>& gaussians, con
   return all;
 }
 
+// Optical depth of a stretch of a way, by the midpoints of n steps. Lanes outside `on` may give anything.
+template <class ExtinctionAt>
+HWY_INLINE Real marched_depth(const Stretch& s, const Real3& from, const Real3& direction, int n, Mask on,
+                              ExtinctionAt&& extinction_at) {
+  const Mask meets = s.begin < s.end;
+  if (!any_lane(meets && on)) return 0.0;
+  const Real begin = select(meets, s.begin, 0.0);
+  const Real step = select(meets, (s.end - s.begin) * (1.0F / static_cast<float>(n)), 0.0);
+  Real extinction = 0.0;
+  for (int k = 0; k < n; ++k) extinction += extinction_at(along(from, direction, fma(step, static_cast<float>(k) + 0.5F, begin)));
+  return extinction * step;
+}
+
 // Optical depth of a way that begins at `from`. Lanes outside `on` may give anything.
 HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, const Real3& direction, Real length, Mask on) {
   Real sum = 0.0;
@@ -113,44 +126,20 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
       sum += select(meets, gaussian_depth(1 / g.radius, h, -foot, length - foot) * whole, 0.0);
     }
   } else if (!medium.gaussians->empty()) {
-    const Stretch s = stretch_of(*medium.gaussians, from, direction, length);
-    const Mask meets = s.begin < s.end;
-    if (any_lane(meets && on)) {
-      const Real step = select(meets, (s.end - s.begin) * (1.0F / static_cast<float>(n)), 0.0);
-      Real extinction = 0.0;
-      for (int k = 0; k < n; ++k) {
-        const Real3 p = along(from, direction, fma(step, static_cast<float>(k) + 0.5F, select(meets, s.begin, 0.0)));
-        for (const GaussianDensity& g : *medium.gaussians) extinction = fma(falloff_at(g, p), g.extinction, extinction);
-      }
-      sum += extinction * step;
-    }
+    sum += marched_depth(stretch_of(*medium.gaussians, from, direction, length), from, direction, n, on,
+                         [&](const Real3& p) HWY_ATTR {
+                           Real extinction = 0.0;
+                           for (const GaussianDensity& g : *medium.gaussians) {
+                             extinction = fma(falloff_at(g, p), g.extinction, extinction);
+                           }
+                           return extinction;
+                         });
   }
   if (*medium.grid.grid) {
-    const Stretch s = medium.grid.stretch(from, direction, length);
-    const Mask meets = s.begin < s.end;
-    if (any_lane(meets && on)) {
-      const Real step = select(meets, (s.end - s.begin) * (1.0F / static_cast<float>(n)), 0.0);
-      Real extinction = 0.0;
-      for (int k = 0; k < n; ++k) {
-        const Real3 p = along(from, direction, fma(step, static_cast<float>(k) + 0.5F, select(meets, s.begin, 0.0)));
-        extinction += medium.grid.extinction_at(p);
-      }
-      sum += extinction * step;
-    }
+    sum += marched_depth(medium.grid.stretch(from, direction, length), from, direction, n, on,
+                         [&](const Real3& p) HWY_ATTR { return medium.grid.extinction_at(p); });
   }
   return sum;
-}
-
-// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
-HWY_INLINE Real3 toward_light(const Light& light, const Real3& p, Real& length) {
-  if (light.directional) {
-    length = 1e15;
-    return real3(-light.vector);
-  }
-  const Real3 way{light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
-  length = sqrt(max(dot(way, way), 1e-37));
-  const Real scale = 1.0 / length;
-  return {way.x * scale, way.y * scale, way.z * scale};
 }
 
 }  // namespace airlight::HWY_NAMESPACE

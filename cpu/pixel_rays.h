@@ -1,4 +1,5 @@
-// The view rays of a tile's pixels, a vector of lanes at a time. Included after cpu/simd.h, anew for every target.
+// The view rays of a tile's pixels and the ways to the lights, a vector of lanes at a time. Included after cpu/simd.h, anew for
+// every target.
 #if defined(AIRLIGHT_CPU_PIXEL_RAYS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef AIRLIGHT_CPU_PIXEL_RAYS_H
 #undef AIRLIGHT_CPU_PIXEL_RAYS_H
@@ -30,6 +31,18 @@ HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {
   view_ray(x, y, view.right.x, view.right.y, view.right.z, view.up.x, view.up.y, view.up.z, view.forward.x, view.forward.y,
            view.forward.z, d.x, d.y, d.z);
   return d;
+}
+
+// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
+HWY_INLINE Real3 toward_light(const Light& light, const Real3& p, Real& length) {
+  if (light.directional) {
+    length = 1e15;
+    return real3(-light.vector);
+  }
+  const Real3 way{light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
+  length = sqrt(max(dot(way, way), 1e-37));
+  const Real scale = 1.0 / length;
+  return {way.x * scale, way.y * scale, way.z * scale};
 }
 
 }  // namespace airlight::HWY_NAMESPACE

@@ -17,11 +17,6 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-// A ray ends at the first depth if nothing behind can matter beside what is seen already, and surely at the second, exp(-80) =
-// 1e-35.
-constexpr float deep = 16, deepest = 80;
-constexpr float matters = 1e-6F;
-
 // What is at a place of the ray.
 struct Local {
   Real extinction, scattering[3], emission[3];
@@ -86,13 +81,7 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   }
 }
 
-// int sigma_t exp(-T) dt is 1 at most, which bounds what is behind.
-HWY_INLINE Mask March::ended() const {
-  const Mask dark = front >= deep;
-  if (!any_lane(dark)) return dark;
-  const Real seen = max(max(sum[0], sum[1]), sum[2]);
-  return (front >= deepest) || (dark && (transmittance(front) * most <= seen * matters));
-}
+HWY_INLINE Mask March::ended() const { return ray_ended(front, most, max(max(sum[0], sum[1]), sum[2])); }
 
 HWY_INLINE Local March::local(const Real3& p, bool all) const {
   Local here;
@@ -168,7 +157,7 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
     return;
   }
   const bool whole = static_cast<bool>(a.optical_depth);  // it is wanted also behind where the ray ends
-  const Real length = select(marching, all ? end - begin : min(end - begin, deepest / max(a.extinction, 1e-30F)), 0.0);
+  const Real length = select(marching, all ? end - begin : min(end - begin, deepest() / max(Real(a.extinction), 1e-30F)), 0.0);
   const float n = static_cast<float>(a.steps);
   Real from = begin;
   for (int k = 0; k < a.steps; ++k) {

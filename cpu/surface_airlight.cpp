@@ -7,8 +7,9 @@
 #include "common/plan/surface_airlight_tables.h"
 #include "cpu/simd.h"
 //
-#include "cpu/lane_material.h"
 #include "cpu/pixel_rays.h"
+//
+#include "cpu/lane_surface.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -19,44 +20,29 @@ static HWY_INLINE Real half_angle_sine(const Real3& a, const Real3& b) {
 }
 
 static void surface_airlight(const SurfaceAirlight& a, const TileView& view, std::span<const float> shininess) {
-  const float* distance = view.plane(a.distance);
-  const float* material = view.plane(a.material);
-  const float* normal[3];
-  for (int c = 0; c < 3; ++c) normal[c] = view.plane(a.normal, c);
   const float* through = view.plane(a.transmittance);
   const float* tables = view.floats(a.tables);
   for (int i = 0; i < tile_pixels; i += lanes) {
-    const Real index = load(material + i);
-    const Mask hit = index >= 0.0;
+    const LaneSurface surface(a, view, i);
+    const Mask hit = surface.hit;
     Real sum[3] = {0.0, 0.0, 0.0};
     if (any_lane(hit)) {
-      const LaneMaterial m = lane_material(a.materials, index);
+      const LaneMaterial& m = surface.material;
       const Real glossy = max(max(m.specular[0], m.specular[1]), m.specular[2]);
-      const Real3 d = pixel_rays(a.view, view.tile, i);
-      const Real3 n{load(normal[0] + i), load(normal[1] + i), load(normal[2] + i)};
-      const Real depth = select(hit, load(distance + i), 0.0);
-      const Real3 p{d.x * depth, d.y * depth, d.z * depth};
-      const Real twice = dot(n, d) * 2.0;
-      const Real3 mirror{fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
       for (const Light& light : a.lights) {
-        Real3 l;
-        Real lambda = 0.0, fall_off = 1.0;
-        if (light.directional) {
-          l = real3(-light.vector);
-        } else {
-          l = {light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
-          const Real length = sqrt(max(dot(l, l), 1e-37));
-          const Real scale = 1.0 / length, r = max(length, light.radius);
-          l = {l.x * scale, l.y * scale, l.z * scale};
+        Real length, lambda = 0.0, fall_off = 1.0;
+        const Real3 l = toward_light(light, surface.place, length);
+        if (!light.directional) {
+          const Real r = max(length, light.radius);
           lambda = length * a.extinction;
           fall_off = 1.0 / (r * r);
         }
         const auto once = [&](const float* t, Real s) HWY_ATTR {
           return light.directional ? surface_airlight_directional(t, s) : surface_airlight_point(t, lambda, s) * fall_off;
         };
-        const Real diffuse = once(tables, half_angle_sine(n, l)) * 0.31830988618379067;
+        const Real diffuse = once(tables, half_angle_sine(surface.normal, l)) * 0.31830988618379067;
         Real specular = 0.0;
-        const Real s = half_angle_sine(mirror, l);
+        const Real s = half_angle_sine(surface.mirror, l);
         for (std::size_t k = 0; k < shininess.size(); ++k) {
           const Mask mine = hit && (glossy > 0.0) && (m.shininess >= shininess[k]) && (m.shininess <= shininess[k]);
           if (!any_lane(mine)) continue;

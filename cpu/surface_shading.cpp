@@ -6,60 +6,44 @@
 
 #include "cpu/simd.h"
 //
-#include "cpu/lane_material.h"
 #include "cpu/pixel_rays.h"
+//
+#include "cpu/lane_surface.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
 static void surface_shading(const SurfaceShading& a, const TileView& view) {
-  const float* distance = view.plane(a.distance);
-  const float* material = view.plane(a.material);
-  const float* normal[3];
-  for (int c = 0; c < 3; ++c) normal[c] = view.plane(a.normal, c);
   const float* through = view.plane(a.transmittance);
   bool glossy = false;
   for (const Material& m : a.materials) glossy |= m.specular.x > 0 || m.specular.y > 0 || m.specular.z > 0;
 
   for (int i = 0; i < tile_pixels; i += lanes) {
-    const Real index = load(material + i);
+    const LaneSurface surface(a, view, i);
+    const Mask hit = surface.hit;
     const Real t = load(through + i);
-    const Mask hit = index >= 0.0;
     Real indirect[3] = {0.0, 0.0, 0.0};
     if (a.indirect) {
       for (int c = 0; c < 3; ++c) indirect[c] = load(view.plane(a.indirect, c) + i);
     }
     Real direct[3] = {0.0, 0.0, 0.0}, ambient[3] = {0.0, 0.0, 0.0};
     if (any_lane(hit)) {
-      const LaneMaterial m = lane_material(a.materials, index);
-      const Real3 d = pixel_rays(a.view, view.tile, i);
-      const Real3 n{load(normal[0] + i), load(normal[1] + i), load(normal[2] + i)};
-      const Real depth = select(hit, load(distance + i), 0.0);
-      const Real3 p{d.x * depth, d.y * depth, d.z * depth};
-      const Real twice = dot(n, d) * 2.0;
-      const Real3 mirror{fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
+      const LaneMaterial& m = surface.material;
       for (std::size_t k = 0; k < a.lights.size(); ++k) {
         const Light& light = a.lights[k];
-        Real3 l;
-        Real irradiance = 1.0;
-        if (light.directional) {
-          l = real3(-light.vector);
-        } else {
-          l = {light.vector.x - p.x, light.vector.y - p.y, light.vector.z - p.z};
-          const Real length = sqrt(max(dot(l, l), 1e-37));
-          const Real scale = 1.0 / length;
-          l = {l.x * scale, l.y * scale, l.z * scale};
-          irradiance = point_irradiance(length, light.radius, a.extinction);
-        }
+        Real length, irradiance = 1.0;
+        const Real3 l = toward_light(light, surface.place, length);
+        if (!light.directional) irradiance = point_irradiance(length, light.radius, a.extinction);
         if (a.light_transmittance) {
           irradiance *= load(view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);
         }
-        const Real cosine = dot(n, l);
+        const Real cosine = dot(surface.normal, l);
         const Real diffuse = lambert(cosine) * irradiance;
         for (int c = 0; c < 3; ++c) direct[c] = fma(m.diffuse[c] * diffuse, light.power[c], direct[c]);
         if (glossy) {
           const Real specular =
-              phong(cosine, unit_distance(mirror.x, mirror.y, mirror.z, l.x, l.y, l.z), m.shininess) * irradiance;
+              phong(cosine, unit_distance(surface.mirror.x, surface.mirror.y, surface.mirror.z, l.x, l.y, l.z), m.shininess) *
+              irradiance;
           for (int c = 0; c < 3; ++c) direct[c] = fma(m.specular[c] * specular, light.power[c], direct[c]);
         }
       }

@@ -71,6 +71,24 @@ vec2 gaussian_stretch(vec3 from, vec3 direction, float length) {
   return all;
 }
 
+float gaussian_extinction_at(vec3 p) {
+  float extinction = 0.0;
+  for (int g = 0; g < medium_counts.x; ++g) extinction = fma(gaussian_falloff_at(g, p), albedo_extinction_of(g).w, extinction);
+  return extinction;
+}
+
+// Optical depth of a stretch of a way through the grid or the Gaussians, by the midpoints of n steps.
+float marched_depth(bool of_grid, vec2 s, vec3 from, vec3 direction, int n) {
+  if (s.x >= s.y) return 0.0;
+  float size = (s.y - s.x) * (1.0 / float(n));
+  float extinction = 0.0;
+  for (int k = 0; k < n; ++k) {
+    vec3 p = fma(direction, vec3(fma(size, float(k) + 0.5, s.x)), from);
+    extinction += of_grid ? grid_extinction_at(p) : gaussian_extinction_at(p);
+  }
+  return extinction * size;
+}
+
 // Optical depth of a way through Gaussians and grid.
 float depth_of_way(vec3 from, vec3 direction, float length) {
   float sum = 0.0;
@@ -89,37 +107,11 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
     sum += gaussian_depth(1.0 / radius, h, -foot, length - foot) * whole;
   }
 #else
-  vec2 s = gaussian_stretch(from, direction, length);
-  if (s.x < s.y) {
-    float size = (s.y - s.x) * (1.0 / float(n));
-    float extinction = 0.0;
-    for (int k = 0; k < n; ++k) {
-      vec3 p = fma(direction, vec3(fma(size, float(k) + 0.5, s.x)), from);
-      for (int g = 0; g < medium_counts.x; ++g) extinction = fma(gaussian_falloff_at(g, p), albedo_extinction_of(g).w, extinction);
-    }
-    sum += extinction * size;
-  }
+  sum += marched_depth(false, gaussian_stretch(from, direction, length), from, direction, n);
 #endif
 #endif
 #ifdef WITH_GRID
-  vec2 box = grid_stretch(from, direction, length);
-  if (box.x < box.y) {
-    float size = (box.y - box.x) * (1.0 / float(n));
-    float extinction = 0.0;
-    for (int k = 0; k < n; ++k) {
-      extinction += grid_extinction_at(fma(direction, vec3(fma(size, float(k) + 0.5, box.x)), from));
-    }
-    sum += extinction * size;
-  }
+  sum += marched_depth(true, grid_stretch(from, direction, length), from, direction, n);
 #endif
   return sum;
-}
-
-// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
-vec3 toward_light(vec3 vector, bool directional, vec3 p, out float length) {
-  length = 1e15;
-  if (directional) return -vector;
-  vec3 way = vector - p;
-  length = sqrt(max(dot3(way, way), 1e-37));
-  return way * (1.0 / length);
 }

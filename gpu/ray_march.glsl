@@ -24,11 +24,6 @@ uniform int first_light;
 uniform int end_light;
 uniform int last_light;  // 1: no lights come after these
 
-// A ray ends at the first depth if nothing behind can matter beside what is seen already, and surely at the second, exp(-80) = 1e-35.
-const float deep = 16.0;
-const float deepest = 80.0;
-const float matters = 1e-6;
-
 #ifdef WITH_OPTICAL_DEPTH
 const bool whole = true;  // it is wanted also behind where the ray ends
 #else
@@ -61,11 +56,7 @@ void bound_ray() {
   }
 }
 
-// int sigma_t exp(-T) dt is 1 at most, which bounds what is behind.
-bool ended() {
-  if (front < deep) return false;
-  return front >= deepest || transmittance(front) * most <= largest(sum) * matters;
-}
+bool ended() { return ray_ended(front, most, largest(sum)); }
 
 // What is at a place of the ray.
 struct Local {
@@ -144,7 +135,7 @@ void stretch(int base, float begin, float end, bool all) {
     if (first_light == 0 && first_step <= base && base < end_step) sum += (end - begin) * transmittance(front) * emission_g.xyz;
     return;
   }
-  float length = all ? end - begin : min(end - begin, deepest / max(extinction, 1e-30));
+  float length = all ? end - begin : min(end - begin, deepest() / max(extinction, 1e-30));
   float n = float(steps);
   int first = max(first_step - base, 0);
   int last = min(end_step - base, steps);

@@ -38,3 +38,12 @@ layout(std140, binding = 1) uniform LightBlock {
 layout(std430, binding = 6) readonly buffer LightBuffer { vec4 light_values[]; };
 #endif
 #endif
+
+// A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
+vec3 toward_light(vec3 vector, bool directional, vec3 p, out float length) {
+  length = 1e15;
+  if (directional) return -vector;
+  vec3 way = vector - p;
+  length = sqrt(max(dot3(way, way), 1e-37));
+  return way * (1.0 / length);
+}

@@ -32,14 +32,12 @@ void main() {
       vec4 vector_radius = light_values[2 * k];
       vec4 power_directional = light_values[2 * k + 1];
       bool directional = power_directional.w != 0.0;
-      vec3 l = -vector_radius.xyz;
+      float length;
+      vec3 l = toward_light(vector_radius.xyz, directional, point, length);
       float lambda = 0.0;
       float fall_off = 1.0;
       if (!directional) {
-        l = vector_radius.xyz - point;
-        float length = sqrt(max(dot3(l, l), 1e-37));
         float r = max(length, vector_radius.w);
-        l *= 1.0 / length;
         lambda = length * albedo_extinction.w;
         fall_off = 1.0 / (r * r);
       }

@@ -40,14 +40,10 @@ void main() {
     for (int k = 0; k < light_count.x; ++k) {
       vec4 vector_radius = light_values[2 * k];
       vec4 power_directional = light_values[2 * k + 1];
-      vec3 l = -vector_radius.xyz;
-      float irradiance = 1.0;
-      if (power_directional.w == 0.0) {
-        l = vector_radius.xyz - point;
-        float length = sqrt(max(dot3(l, l), 1e-37));
-        l *= 1.0 / length;
-        irradiance = point_irradiance(length, vector_radius.w, ambient_extinction.w);
-      }
+      bool directional = power_directional.w != 0.0;
+      float length;
+      vec3 l = toward_light(vector_radius.xyz, directional, point, length);
+      float irradiance = directional ? 1.0 : point_irradiance(length, vector_radius.w, ambient_extinction.w);
 #ifdef WITH_LIGHT_TRANSMITTANCE
       irradiance *= texelFetch(light_transmittance_image, ivec3(p, k), 0).x;
 #endif

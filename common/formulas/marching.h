@@ -105,3 +105,12 @@ FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb
 FORMULA real step_transmittance(real front, real tau, real u, real beside) {
   return transmittance(max(front + tau * (u - 0.5) + beside, 0.0)) * mean_transmittance(tau);
 }
+
+// Optical depth at which a ray surely ends: exp(-80) = 1e-35.
+FORMULA real deepest() { return 80.0; }
+
+// Whether a ray ends behind `front`: `most` is the radiance that all of it could have, seen through nothing (int sigma_t exp(-T) dt is 1 at most), `seen` what
+// it has. From exp(-16) on it ends where what is behind can change that by 1e-6 at most.
+FORMULA mask ray_ended(real front, real most, real seen) {
+  return (front >= deepest()) || ((front >= 16.0) && (transmittance(front) * most <= seen * 1e-6));
+}
