@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/command.h"
+#include "common/relative_rmse.h"
 
 namespace airlight {
 
@@ -58,7 +59,8 @@ int compare(const CompareCommand& c) {
     throw InputError(fmt::format("{}: {} x {} pixels, {} channels; expected those of {}: {} x {}, {}", c.a, a.extent.width,
                                  a.extent.height, a.channels, c.b, b.extent.width, b.extent.height, b.channels));
   }
-  double square = 0, mean = 0, largest = 0;
+  RelativeRmse error;
+  double largest = 0;
   std::size_t at = 0, not_numbers = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     const double u = static_cast<double>(a.values[i]), v = static_cast<double>(b.values[i]), d = std::fabs(u - v);
@@ -66,15 +68,13 @@ int compare(const CompareCommand& c) {
       ++not_numbers;
       continue;
     }
-    square += d * d;
-    mean += v;
+    error.add(u, v);
     if (d > largest) largest = d, at = i;
   }
-  const auto n = static_cast<double>(a.values.size());
-  const double rmse = std::sqrt(square / n), scale = std::fabs(mean / n);
-  const double relative = scale > 0 ? rmse / scale : rmse;
+  const bool black = error.mean_truth() == 0;
+  const double relative = black ? error.rmse() : error.value();
   const std::size_t pixel = at / static_cast<std::size_t>(a.channels), width = static_cast<std::size_t>(a.extent.width);
-  fmt::print("relative RMSE {:.6g}{}\n", relative, scale > 0 ? "" : " (absolute: the second image's mean is 0)");
+  fmt::print("relative RMSE {:.6g}{}\n", relative, !black ? "" : " (absolute: the second image's mean is 0)");
   fmt::print("largest difference {:.6g} at pixel {}, {}\n", largest, pixel % width, pixel / width);
   fmt::print("structural similarity {:.6f}\n", structural_similarity(a, b));
   if (not_numbers > 0) fmt::print("{} values are not finite\n", not_numbers);

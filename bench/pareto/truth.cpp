@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 
 #include "common/reference/reference.h"
+#include "common/relative_rmse.h"
 #include "common/scene/content_hash.h"
 #include "common/scene/image_file.h"
 #include "common/scene/sha256.h"
@@ -104,25 +104,13 @@ Truth truth_of(const Scene& scene, Extent extent, const KnobValues& knobs, const
 }
 
 RelativeError relative_error(const HostImage& image, const Truth& truth) {
-  struct Sum {
-    double squares = 0, truth = 0, count = 0;
-    double relative() const {
-      if (count == 0) return 0;  // every pixel is at an edge
-      const double value = std::sqrt(squares / count) / (truth / count);
-      return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
-    }
-  } everywhere, off_edges;
+  RelativeRmse everywhere, off_edges;
   for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const auto expected = static_cast<double>(truth.beauty.values[i]);
-    const double apart = static_cast<double>(image.values[i]) - expected;
-    for (Sum* sum : {&everywhere, &off_edges}) {
-      if (sum == &off_edges && truth.edges[i / 3]) continue;
-      sum->squares += apart * apart;
-      sum->truth += expected;
-      sum->count += 1;
-    }
+    const auto value = static_cast<double>(image.values[i]), expected = static_cast<double>(truth.beauty.values[i]);
+    everywhere.add(value, expected);
+    if (!truth.edges[i / 3]) off_edges.add(value, expected);
   }
-  return {everywhere.relative(), off_edges.relative()};
+  return {everywhere.value(), off_edges.value()};
 }
 
 }  // namespace airlight

@@ -1,12 +1,12 @@
 // What a goal promises: technique and knobs chosen by the stored models, their error measured. Times are only told.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 #include <thread>
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
+#include "common/relative_rmse.h"
 #include "common/techniques/choose.h"
 #include "tests/tolerances.h"
 #include "tests/truth/truth_scenes.h"
@@ -18,16 +18,14 @@ constexpr Extent extent{64, 48};
 
 // Off edges, as the models promise it.
 double relative_error(const HostImage& image, const ReferenceFrame& truth) {
-  double squares = 0, sum = 0, n = 0;
+  RelativeRmse error;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     if (truth.edges[i]) continue;
     for (int c = 0; c < 3; ++c) {
-      const double expected = truth.pixels[i].beauty()[c];
-      const double apart = static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]) - expected;
-      squares += apart * apart, sum += expected, n += 1;
+      error.add(static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]), truth.pixels[i].beauty()[c]);
     }
   }
-  return std::sqrt(squares / n) / (sum / n);
+  return error.value();
 }
 
 class Promises : public testing::TestWithParam<TruthScene> {};

@@ -11,6 +11,7 @@
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
+#include "common/relative_rmse.h"
 #include "tests/tolerances.h"
 #include "tests/truth/shadow_scenes.h"
 #include "tests/truth/truth_scenes.h"
@@ -21,24 +22,11 @@ namespace {
 constexpr Extent extent{160, 120};
 
 struct RelativeError {
-  double off_edges = 0, everywhere = 0;  // sqrt(mean((a-b)^2)) / mean(b) over pixels and channels
-};
-
-class Sum {
- public:
-  void add(double a, double b) {
-    squares_ += (a - b) * (a - b);
-    truth_ += b;
-    n_ += 1;
-  }
-  double relative_rmse() const { return std::sqrt(squares_ / n_) / (truth_ / n_); }
-
- private:
-  double squares_ = 0, truth_ = 0, n_ = 0;
+  double off_edges = 0, everywhere = 0;
 };
 
 RelativeError relative_error(const HostImage& image, const ReferenceFrame& truth, glm::dvec3 (*part)(const ReferencePixel&)) {
-  Sum off_edges, everywhere;
+  RelativeRmse off_edges, everywhere;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     const glm::dvec3 expected = part(truth.pixels[i]);
     for (int c = 0; c < 3; ++c) {
@@ -47,7 +35,7 @@ RelativeError relative_error(const HostImage& image, const ReferenceFrame& truth
       if (!truth.edges[i]) off_edges.add(value, expected[c]);
     }
   }
-  return {off_edges.relative_rmse(), everywhere.relative_rmse()};
+  return {off_edges.value(), everywhere.value()};
 }
 
 struct Part {
