@@ -12,6 +12,7 @@ void run_tile(const SurfaceAirlight&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
 void run_tile(const RayMarch&, const TileView&, Simd);
+void run_tile(const GaussianAirlight&, const TileView&, Simd);
 void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 

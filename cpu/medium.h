@@ -7,6 +7,8 @@
 #define AIRLIGHT_CPU_MEDIUM_H
 #endif
 
+#include <algorithm>
+
 #include "common/algorithms/medium.h"
 #include "common/plan/voxels.h"
 
@@ -122,7 +124,7 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
       perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
       const Mask meets = (h < g.reach) && (foot > -g.reach) && (foot - length < g.reach);
       if (!any_lane(meets && on)) continue;
-      const float whole = g.extinction * g.radius * 1.77245385F;  // along the line through the centre: c radius sqrt(pi)
+      const Real whole = gaussian_whole(g.extinction, g.radius);
       sum += select(meets, gaussian_depth(1 / g.radius, h, -foot, length - foot) * whole, 0.0);
     }
   } else if (!medium.gaussians->empty()) {
@@ -141,6 +143,35 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
   }
   return sum;
 }
+
+// What rays through Gaussians and a homogeneous part can have at most, were they seen through nothing.
+struct RadianceBound {
+  Real phase_most;  // [1/sr] largest value of the phase function
+  float glow_most;  // [W/m^2/sr] largest emission / extinction
+
+  template <class Algorithm>
+  HWY_INLINE explicit RadianceBound(const Algorithm& a) {
+    const int kind = static_cast<int>(a.phase.kind);
+    const auto g = static_cast<float>(a.phase.g);
+    phase_most = max(phase_value(kind, g, 1.0), phase_value(kind, g, -1.0));
+    const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
+    glow_most = largest(a.emission) > 0 ? largest(a.emission) / std::max(a.extinction, 1e-30F) : 0;
+    for (const GaussianDensity& one : a.gaussians) glow_most += largest(one.emission) / one.extinction;
+    glow_most = std::min(glow_most, 1e30F);
+  }
+  // [W/m^2/sr] of each lane's ray.
+  template <class Algorithm>
+  HWY_INLINE Real of(const Algorithm& a, const Real3& d) const {
+    Real most = glow_most;
+    for (const Light& light : a.lights) {
+      const Real power = std::max({light.power.x, light.power.y, light.power.z});
+      Real foot, h = 1.0;
+      if (!light.directional) perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+      most += power * phase_most / (h * h);
+    }
+    return most;
+  }
+};
 
 }  // namespace airlight::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -27,9 +27,8 @@ struct March {
   const RayMarch& a;
   const TileView& view;
   MediumLookup medium;
+  RadianceBound bound;
   bool one_albedo, emits;
-  Real phase_most;  // [1/sr] largest value of the phase function
-  float glow_most;  // [W/m^2/sr] largest emission / extinction
 
   int i = 0;  // the first pixel
   Real3 d;
@@ -47,19 +46,17 @@ struct March {
 };
 
 HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view)
-    : a(algorithm), view(tile_view), medium(algorithm, tile_view), one_albedo(true), emits(algorithm.emission != glm::vec3(0)) {
+    : a(algorithm),
+      view(tile_view),
+      medium(algorithm, tile_view),
+      bound(algorithm),
+      one_albedo(true),
+      emits(algorithm.emission != glm::vec3(0)) {
   for (const GaussianDensity& g : a.gaussians) {
     one_albedo = one_albedo && g.albedo == a.albedo;
     emits = emits || g.emission != glm::vec3(0);
   }
   if (a.grid) one_albedo = one_albedo && a.grid.albedo == a.albedo;
-  const int kind = static_cast<int>(a.phase.kind);
-  const auto g = static_cast<float>(a.phase.g);
-  phase_most = max(phase_value(kind, g, 1.0), phase_value(kind, g, -1.0));
-  const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
-  glow_most = largest(a.emission) > 0 ? largest(a.emission) / std::max(a.extinction, 1e-30F) : 0;
-  for (const GaussianDensity& one : a.gaussians) glow_most += largest(one.emission) / one.extinction;
-  glow_most = std::min(glow_most, 1e30F);
 }
 
 HWY_INLINE void March::begin(int first, const Real3& direction) {
@@ -68,13 +65,7 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   front = within = 0.0;
   going = Real(0.0) < Real(1.0);
   for (Real& s : sum) s = 0.0;
-  most = glow_most;
-  for (const Light& light : a.lights) {
-    const Real power = std::max({light.power.x, light.power.y, light.power.z});
-    Real foot, h = 1.0;
-    if (!light.directional) perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-    most += power * phase_most / (h * h);
-  }
+  most = bound.of(a, d);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);

@@ -103,7 +103,7 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
     perpendicular(direction.x, direction.y, direction.z, e.x, e.y, e.z, 0.0, foot, h);
     if (h >= reach || foot <= -reach || foot - length >= reach) continue;
     float radius = center_radius(g).w;
-    float whole = albedo_extinction_of(g).w * radius * 1.77245385;  // along the line through the centre: c radius sqrt(pi)
+    float whole = gaussian_whole(albedo_extinction_of(g).w, radius);
     sum += gaussian_depth(1.0 / radius, h, -foot, length - foot) * whole;
   }
 #else
@@ -114,4 +114,25 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
   sum += marched_depth(true, grid_stretch(from, direction, length), from, direction, n);
 #endif
   return sum;
+}
+
+float largest(vec3 v) { return max(max(v.x, v.y), v.z); }
+
+// What a ray through Gaussians and a homogeneous part can have at most, were it seen through nothing. emission_g: the homogeneous part's, and the phase
+// function's g.
+float radiance_bound(int phase_kind, vec4 emission_g, float extinction, vec3 d) {
+  float phase_most = max(phase_value(phase_kind, emission_g.w, 1.0), phase_value(phase_kind, emission_g.w, -1.0));
+  float most = largest(emission_g.xyz) > 0.0 ? largest(emission_g.xyz) / max(extinction, 1e-30) : 0.0;
+#ifdef WITH_GAUSSIANS
+  for (int g = 0; g < medium_counts.x; ++g) most += largest(emission_reach(g).xyz) / albedo_extinction_of(g).w;
+#endif
+  most = min(most, 1e30);
+  for (int k = 0; k < light_count.x; ++k) {
+    vec4 v = light_values[2 * k];
+    float foot;
+    float h = 1.0;
+    if (light_values[2 * k + 1].w == 0.0) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
+    most += largest(light_values[2 * k + 1].xyz) * phase_most / (h * h);
+  }
+  return most;
 }

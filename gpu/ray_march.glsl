@@ -38,24 +38,6 @@ float within = 0.0;  // that of Gaussians and grid alone
 float most;          // radiance that the whole ray can have, were it seen through nothing
 vec3 sum = vec3(0.0);
 
-float largest(vec3 v) { return max(max(v.x, v.y), v.z); }
-
-void bound_ray() {
-  float phase_most = max(phase_value(phase_kind, emission_g.w, 1.0), phase_value(phase_kind, emission_g.w, -1.0));
-  most = largest(emission_g.xyz) > 0.0 ? largest(emission_g.xyz) / max(albedo_extinction.w, 1e-30) : 0.0;
-#ifdef WITH_GAUSSIANS
-  for (int g = 0; g < medium_counts.x; ++g) most += largest(emission_reach(g).xyz) / albedo_extinction_of(g).w;
-#endif
-  most = min(most, 1e30);
-  for (int k = 0; k < light_count.x; ++k) {
-    vec4 v = light_values[2 * k];
-    float foot;
-    float h = 1.0;
-    if (light_values[2 * k + 1].w == 0.0) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
-    most += largest(light_values[2 * k + 1].xyz) * phase_most / (h * h);
-  }
-}
-
 bool ended() { return ray_ended(front, most, largest(sum)); }
 
 // What is at a place of the ray.
@@ -168,7 +150,7 @@ void main() {
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
   float end = min(length, 1e15);
   d = pixel_ray(pixel);
-  bound_ray();
+  most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
   if (first_step > 0 || first_light > 0) sum = imageLoad(airlight_image, at).xyz;
   if (first_step > 0) {
     front = imageLoad(airlight_image, at).w;

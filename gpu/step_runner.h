@@ -95,6 +95,7 @@ void run(const SurfaceAirlight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);
+void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/algorithms/compose.h"
+#include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/ray_march.h"
@@ -18,7 +19,7 @@
 namespace airlight {
 
 using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
-                               HomogeneousAirlight, RayMarch, LightMarch, Compose>;
+                               HomogeneousAirlight, RayMarch, GaussianAirlight, LightMarch, Compose>;
 
 struct Step {
   Algorithm what;

@@ -10,3 +10,6 @@ FORMULA real gaussian_depth(real inverse_radius, real h, real from, real to) {
   real y = h * inverse_radius;
   return 0.5 * exp_(-min(y * y, 60.0)) * max(erf_(to * inverse_radius) - erf_(from * inverse_radius), 0.0);
 }
+
+// Optical depth of the whole line through the centre, c radius sqrt(pi).
+FORMULA real gaussian_whole(real extinction, real radius) { return extinction * radius * 1.7724538509055160; }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "common/plan/airlight_tables.h"
 #include "common/plan/hash.h"
 #include "common/plan/surface_airlight_tables.h"
 #include "common/plan/upload.h"
@@ -13,7 +14,7 @@ namespace airlight {
 namespace {
 
 // Fixed, so that what is held under them stays where other images are wanted.
-enum : std::uint32_t { geometry_id = 1, per_light_id = 4, indirect_tables_id = 5, first_image_id = 6 };
+enum : std::uint32_t { geometry_id = 1, per_light_id = 4, indirect_tables_id = 5, airlight_tables_id = 6, first_image_id = 7 };
 
 }  // namespace
 
@@ -26,6 +27,19 @@ Knob indirect_knob() {
           .choices = {"unbounded", "off"},
           .meaning = "light scattered once on its way to surfaces, as of an unbounded homogeneous medium without shadows",
           .sweep = {}};
+}
+
+Knob table_nodes_knob() {
+  return {
+      .name = "table_nodes",
+      .kind = Knob::Kind::integer,
+      .standard = "64",
+      .least = 16,
+      .most = 128,
+      .choices = {},
+      .meaning =
+          "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
+      .sweep = {"16", "24", "32", "48", "64", "96", "128"}};
 }
 
 FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
@@ -86,6 +100,17 @@ Image FramePlan::per_light_image() {
     any = true;
   }
   return any ? made : Image{};
+}
+
+Buffer FramePlan::add_airlight_tables() {
+  const Buffer tables{{airlight_tables_id}, 0};
+  const int nodes = static_cast<int>(request.knobs.number("table_nodes"));
+  Hash key;
+  key.add(scene.medium.phase);
+  key.add(nodes);
+  plan.uploads.push_back(
+      table_upload(tables, key.value(), [phase = scene.medium.phase, nodes] { return airlight_tables(phase, nodes); }));
+  return tables;
 }
 
 // Absent where the scene has nothing to scatter or to receive, or the knob does not ask for it.

@@ -15,6 +15,8 @@ namespace airlight {
 
 // `indirect`: unbounded | off.
 Knob indirect_knob();
+// `table_nodes`, of FramePlan::add_airlight_tables().
+Knob table_nodes_knob();
 
 class FramePlan {
  public:
@@ -44,6 +46,8 @@ class FramePlan {
   // An image of this frame's extent that is only handed on.
   Image handed_on(std::uint32_t id, Format format, int layers) const { return {{id}, format, request.extent, layers, false}; }
 
+  // The tables of HomogeneousAirlight. The technique has the knob table_nodes.
+  Buffer add_airlight_tables();
   // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
   // SurfaceShading, or absent. After the step that makes `transmittance`.
   void shade(Image light_transmittance);

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-#include "common/plan/airlight_tables.h"
 #include "common/plan/frame.h"
-#include "common/plan/hash.h"
 #include "common/plan/shadow_volumes.h"
-#include "common/plan/upload.h"
 
 namespace airlight {
 
@@ -49,7 +46,7 @@ bool any_shadow(const Scene& scene, const std::vector<std::size_t>& lights, bool
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { tables_id = FramePlan::first_own_id, volumes_id, scattered_id, lit_id };
+  enum : std::uint32_t { volumes_id = FramePlan::first_own_id, scattered_id, lit_id };
   const Medium& medium = scene.medium;
   // Section 2 of the paper: what each pixel sees, and through how much medium.
   FramePlan frame(scene, request);
@@ -60,13 +57,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const std::vector<Light> scattered_lights = scatters || frame.per_light ? frame.lights : std::vector<Light>{};
   Buffer tables;
   if (foggy && std::any_of(scattered_lights.begin(), scattered_lights.end(), [](const Light& l) { return !l.directional; })) {
-    tables = {{tables_id}, 0};
-    const int nodes = static_cast<int>(request.knobs.number("table_nodes"));
-    Hash key;
-    key.add(medium.phase);
-    key.add(nodes);
-    frame.plan.uploads.push_back(
-        table_upload(tables, key.value(), [phase = medium.phase, nodes] { return airlight_tables(phase, nodes); }));
+    tables = frame.add_airlight_tables();
   }
   Image scattered, lit;
   if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") == "on", frame.plan)) {
@@ -140,25 +131,16 @@ Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
   t.summary = "analytic single scattering and exact shadows in homogeneous fog (Biri et al. 2006)";
-  t.knobs = {
-      {.name = "table_nodes",
-       .kind = Knob::Kind::integer,
-       .standard = "64",
-       .least = 16,
-       .most = 128,
-       .choices = {},
-       .meaning =
-           "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
-       .sweep = {"16", "24", "32", "48", "64", "96", "128"}},
-      {.name = "shadows",
-       .kind = Knob::Kind::choice,
-       .standard = "on",
-       .least = 0,
-       .most = 0,
-       .choices = {"on", "off"},
-       .meaning = "shadows of the casters, in the medium and on surfaces",
-       .sweep = {}},
-      indirect_knob()};
+  t.knobs = {table_nodes_knob(),
+             {.name = "shadows",
+              .kind = Knob::Kind::choice,
+              .standard = "on",
+              .least = 0,
+              .most = 0,
+              .choices = {"on", "off"},
+              .meaning = "shadows of the casters, in the medium and on surfaces",
+              .sweep = {}},
+             indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

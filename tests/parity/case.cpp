@@ -7,8 +7,8 @@ namespace airlight {
 std::vector<NamedCase> all_cases() {
   std::vector<NamedCase> all;
   for (const auto list : {surface_visibility_cases(), shadow_planes_cases(), view_transmittance_cases(), surface_airlight_cases(),
-                          surface_shading_cases(), homogeneous_airlight_cases(), ray_march_cases(), light_march_cases(),
-                          compose_cases(), frame_cases()}) {
+                          surface_shading_cases(), homogeneous_airlight_cases(), ray_march_cases(), gaussian_airlight_cases(),
+                          light_march_cases(), compose_cases(), frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;
@@ -16,7 +16,8 @@ std::vector<NamedCase> all_cases() {
 
 std::vector<NamedCase> long_cases() {
   std::vector<NamedCase> all;
-  for (const auto list : {long_ray_march_cases(), long_light_march_cases()}) all.insert(all.end(), list.begin(), list.end());
+  for (const auto list : {long_ray_march_cases(), long_gaussian_airlight_cases(), long_light_march_cases()})
+    all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 

@@ -34,6 +34,7 @@ std::span<const NamedCase> surface_airlight_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
 std::span<const NamedCase> ray_march_cases();
+std::span<const NamedCase> gaussian_airlight_cases();
 std::span<const NamedCase> light_march_cases();
 std::span<const NamedCase> compose_cases();
 std::span<const NamedCase> frame_cases();
@@ -41,6 +42,7 @@ std::vector<NamedCase> all_cases();
 
 // Cases with so many loops that GL takes them in parts: for small images, and no benchmarks.
 std::span<const NamedCase> long_ray_march_cases();
+std::span<const NamedCase> long_gaussian_airlight_cases();
 std::span<const NamedCase> long_light_march_cases();
 std::vector<NamedCase> long_cases();
 

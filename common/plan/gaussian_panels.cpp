@@ -1,0 +1,340 @@
+#include "common/plan/gaussian_panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace airlight {
+
+namespace {
+
+constexpr double panel_radii = 4;    // longest panel, in radii of the smallest Gaussian that is smooth over it
+constexpr double panel_depth = 4;    // largest optical depth of a panel
+constexpr double near_light = 0.7;   // of a panel's length: nearer lights have it cut
+constexpr double cut_ratio = 3;      // from one cut to the next
+constexpr double unseen_depth = 90;  // of the homogeneous part: nothing is seen beyond
+constexpr double horizon = 1e15;     // [m]
+
+// cos(x) for x in 0..pi by its series: the same on every machine, where the C library's is not.
+double cosine(double x) {
+  double term = 1, sum = 1;
+  for (int k = 1; k < 20; ++k) {
+    term *= -x * x / ((2 * k - 1) * (2 * k));
+    sum += term;
+  }
+  return sum;
+}
+
+double squared(double x) { return x * x; }
+
+// An upper bound of exp(-q), q >= 0.
+double falloff_bound(double q) { return 1 / (1 + q * (1 + q * (0.5 + q / 6))); }
+
+// How much sooner than 1/r^2 alone a phase function makes the light near a lamp change.
+double sharpness(const Phase& phase) {
+  switch (phase.kind) {
+    case PhaseKind::henyey_greenstein:
+    case PhaseKind::cornette_shanks:
+      return 1 - 0.6 * std::fabs(phase.g);
+    case PhaseKind::mie_hazy:
+    case PhaseKind::mie_murky:
+      return 0.5;
+    default:
+      return 1;
+  }
+}
+
+struct Sphere {
+  glm::dvec3 center;
+  double radius;
+};
+
+}  // namespace
+
+GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()) {
+  for (int i = 0; i < n; ++i) {
+    double x = -cosine(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), slope = 1;
+    for (int iteration = 0; iteration < 8; ++iteration) {  // Newton's, on Legendre's polynomial
+      double before = 1, value = x;
+      for (int k = 2; k <= n; ++k) {
+        const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
+        before = value;
+        value = next;
+      }
+      slope = n * (before - x * value) / (1 - x * x);
+      x -= value / slope;
+    }
+    node[static_cast<std::size_t>(i)] = static_cast<float>(x);
+    weight[static_cast<std::size_t>(i)] = static_cast<float>(2 / ((1 - x * x) * slope * slope));
+  }
+}
+
+// The rays of the square: those within an angle of the axis.
+struct GaussianPanels::Cone {
+  glm::dvec3 axis{0, 0, 1};
+  double cos = 1, sin = 0;
+
+  Cone(const View& view, int x, int y) {
+    const double w = view.extent.width, h = view.extent.height, t = static_cast<double>(view.tan_half_fov);
+    glm::dvec3 corner[4];
+    for (int k = 0; k < 4; ++k) {
+      const double across = x + k % 2 * bin_side, down = y + k / 2 * bin_side;
+      const double u = (2 * across / w - 1) * t * w / h, v = (1 - 2 * down / h) * t;
+      corner[k] = glm::normalize(u * glm::dvec3(view.right) + v * glm::dvec3(view.up) + glm::dvec3(view.forward));
+    }
+    // Samples lie up to half a pixel beside a pixel's centre: within the corners.
+    axis = glm::normalize(corner[0] + corner[1] + corner[2] + corner[3]);
+    for (const glm::dvec3& c : corner) cos = std::min(cos, glm::dot(axis, c));
+    cos -= 1e-12;
+    sin = std::sqrt(std::max(0.0, 1 - cos * cos));
+  }
+
+  // A place by its coordinates along the axis and beside it.
+  struct Place {
+    double along, beside;
+  };
+  Place place(const glm::dvec3& p) const {
+    const double along = glm::dot(p, axis);
+    return {along, std::sqrt(std::max(0.0, glm::dot(p, p) - along * along))};
+  }
+  // Bounds over all rays of the foot of a place, and of its distance from them.
+  double least_foot(Place p) const { return p.along * cos - p.beside * sin; }
+  double most_foot(Place p) const {
+    const bool inside = p.along > 0 && p.beside * cos < p.along * sin;
+    return inside ? std::sqrt(p.along * p.along + p.beside * p.beside) : p.along * cos + p.beside * sin;
+  }
+  double least_distance(Place p) const { return std::max(0.0, p.beside * cos - std::fabs(p.along) * sin); }
+
+  // Around what the rays cover between two distances.
+  Sphere around(double from, double to) const {
+    const double middle = (from + to) / 2;
+    double radius = (to - from) / 2;
+    for (const double t : {from, to}) radius = std::max(radius, std::sqrt(squared(t * cos - middle) + squared(t * sin)));
+    return {axis * middle, radius};
+  }
+};
+
+struct GaussianPanels::Met {
+  double begin, end;       // [m] along the rays, within its reach
+  double radius, density;  // density: an upper bound of its extinction on the rays
+};
+
+struct GaussianPanels::Build {
+  const GaussianAirlight& a;
+  GaussianPanels& out;
+  Cone cone;
+  std::vector<Met> met;  // in the order of out.met_
+  double sharp;
+  bool everywhere;  // something is to be seen also where no Gaussian is
+  // Lists of the recursion's branch: of Gaussians, and where the list of each light lies.
+  std::vector<std::uint32_t> stack;
+  std::vector<Range> ranges;
+  Range last_active{};
+
+  Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y)
+      : a(algorithm),
+        out(panels),
+        cone(a.view, x, y),
+        sharp(sharpness(a.phase)),
+        everywhere(a.extinction > 0 || a.emission != glm::vec3(0)) {
+    for (std::size_t i = 0; i < a.gaussians.size(); ++i) meet(a.gaussians[i], static_cast<std::uint32_t>(i));
+  }
+
+  void meet(const GaussianDensity& g, std::uint32_t index) {
+    const Cone::Place p = cone.place(g.center);
+    const double reach = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
+    const double h = cone.least_distance(p);
+    if (h >= reach) return;
+    const double chord = std::sqrt((reach - h) * (reach + h));
+    const double begin = std::max(0.0, cone.least_foot(p) - chord), end = cone.most_foot(p) + chord;
+    if (end <= 0) return;
+    out.met_.push_back(index);
+    met.push_back({begin, end, radius, static_cast<double>(g.extinction) * falloff_bound(squared(h / radius))});
+  }
+
+  // Whether a Gaussian may shade some place of the sphere from the light.
+  static bool shades(const GaussianDensity& g, const Light& light, const Sphere& s) {
+    const glm::dvec3 center(g.center), vector(light.vector);
+    const double reach = static_cast<double>(g.reach);
+    if (light.directional) {
+      const glm::dvec3 e = center - s.center;
+      const double toward = -glm::dot(e, vector);
+      return toward > -(reach + s.radius) && glm::dot(e, e) - toward * toward < squared(reach + s.radius) * (1 + 1e-6);
+    }
+    const glm::dvec3 way = s.center - vector, e = center - vector;
+    const double length = glm::length(way);
+    if (length <= s.radius * 1.001) return glm::length(center - s.center) < reach + s.radius;
+    const double along = glm::dot(e, way) / length;
+    if (along <= -reach || along >= length + s.radius + reach) return false;
+    const double beside = std::sqrt(std::max(0.0, glm::dot(e, e) - along * along));
+    const double sine = s.radius / length, cosine = std::sqrt(1 - sine * sine);
+    return beside * cosine < std::max(0.0, along) * sine + reach * (1 + 1e-6);
+  }
+
+  // The longest panel at a distance from a light over which the shadow of a Gaussian is smooth.
+  static double smooth_shadow(const GaussianDensity& g, const Light& light, const Sphere& s) {
+    const double radius = static_cast<double>(g.radius);
+    const double faint = 1 + 0.03 / (static_cast<double>(g.extinction) * radius);  // what takes little may be rough
+    double grown = 1;
+    if (!light.directional) {
+      const double distance = glm::length(glm::dvec3(g.center - light.vector));
+      const double away = glm::length(s.center - glm::dvec3(light.vector)) - s.radius;
+      grown = std::max(1.0, away / std::max(distance, radius));
+    }
+    return panel_radii * radius * grown * faint;
+  }
+
+  // Cuts in which a light's peak has to be taken apart; 0: none.
+  std::uint32_t levels(const Light& light, double begin, double end) const {
+    if (light.directional) return 0;
+    const Cone::Place p = cone.place(light.vector);
+    const double beside = std::max(static_cast<double>(light.radius), cone.least_distance(p));
+    const double gap = std::max({0.0, begin - cone.most_foot(p), cone.least_foot(p) - end});
+    double scale = std::sqrt(beside * beside + gap * gap) * sharp;
+    std::uint32_t n = 0;
+    for (const double length = end - begin; scale < near_light * length && n < 40; scale *= cut_ratio) ++n;
+    return n;
+  }
+
+  // Lists of the lights' Gaussians that may shade the sphere, from the lists at `from`; onto the stacks.
+  void filter_shades(std::size_t from, const Sphere& s) {
+    for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      const Range before = ranges[from + k];
+      const auto begin = static_cast<std::uint32_t>(stack.size());
+      for (std::uint32_t i = before.begin; i < before.end; ++i) {
+        const std::uint32_t index = stack[i];
+        if (shades(a.gaussians[index], a.lights[k], s)) stack.push_back(index);
+      }
+      ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
+    }
+  }
+
+  // Panels from begin to end. `active`: places in met, on the stack; the lights' lists begin at `from` of ranges.
+  void cut(double begin, double end, Range active, std::size_t from, int depth) {
+    const std::size_t stack_size = stack.size(), ranges_size = ranges.size();
+    const Sphere sphere = cone.around(begin, end);
+    const auto first = static_cast<std::uint32_t>(stack.size());
+    double longest = 2 * (end - begin), density = static_cast<double>(a.extinction);
+    for (std::uint32_t i = active.begin; i < active.end; ++i) {
+      const std::uint32_t at = stack[i];
+      const Met& m = met[at];
+      if (m.begin >= end || m.end <= begin) continue;
+      longest = std::min(longest, panel_radii * m.radius);
+      density += m.density;
+      stack.push_back(at);
+    }
+    const Range inside{first, static_cast<std::uint32_t>(stack.size())};
+    const bool any = inside.begin < inside.end;
+    if (any || everywhere) {
+      const std::size_t shading = ranges.size();
+      filter_shades(from, sphere);
+      std::uint32_t cuts = 0;
+      bool sampled = any;
+      for (std::size_t k = 0; k < a.lights.size(); ++k) {
+        const Range r = ranges[shading + k];
+        for (std::uint32_t i = r.begin; i < r.end; ++i)
+          longest = std::min(longest, smooth_shadow(a.gaussians[stack[i]], a.lights[k], sphere));
+        if (!any && r.begin == r.end) continue;
+        sampled = true;
+        if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
+      }
+      if (sampled && any) longest = std::min(longest, panel_depth / density);
+      const bool good = !sampled || (end - begin <= longest && cuts <= most_cuts);
+      if (good || depth == 0) {
+        add(begin, end, inside, shading);
+      } else {
+        const double middle = begin + (end - begin) / 2;
+        cut(begin, middle, inside, shading, depth - 1);
+        cut(middle, end, inside, shading, depth - 1);
+      }
+    }
+    stack.resize(stack_size);
+    ranges.resize(ranges_size);
+  }
+
+  void add(double begin, double end, Range inside, std::size_t shading) {
+    Panel p;
+    p.begin = static_cast<float>(begin);
+    p.end = static_cast<float>(end);
+    p.active.begin = static_cast<std::uint32_t>(out.indices_.size());
+    for (std::uint32_t i = inside.begin; i < inside.end; ++i) out.indices_.push_back(stack[i]);
+    p.active.end = static_cast<std::uint32_t>(out.indices_.size());
+    // Both lists ascend.
+    p.passed.begin = p.active.end;
+    std::uint32_t now = p.active.begin;
+    for (std::uint32_t i = last_active.begin; i < last_active.end; ++i) {
+      const std::uint32_t index = out.indices_[i];
+      while (now < p.active.end && out.indices_[now] < index) ++now;
+      if (now == p.active.end || out.indices_[now] != index) out.indices_.push_back(index);
+    }
+    p.passed.end = static_cast<std::uint32_t>(out.indices_.size());
+    last_active = p.active;
+    p.shades = static_cast<std::uint32_t>(out.shades_.size());
+    bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
+    for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      Shade s;
+      s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
+      for (std::uint32_t i = ranges[shading + k].begin; i < ranges[shading + k].end; ++i) {
+        const GaussianDensity& g = a.gaussians[stack[i]];
+        const glm::vec3 e = g.center - a.lights[k].vector;
+        const bool around = !a.lights[k].directional && glm::dot(e, e) < g.reach * g.reach;
+        out.indices_.push_back(stack[i] | (around ? around_light : 0));
+      }
+      s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
+      const bool closed = closed_form(p, s);
+      plain = plain && closed;
+      if (!closed) s.levels = levels(a.lights[k], begin, end);
+      out.shades_.push_back(s);
+    }
+    if (plain && !out.panels_.empty() && out.panels_.back().active.begin == out.panels_.back().active.end) {
+      Panel& before = out.panels_.back();
+      bool joins = before.end >= p.begin;
+      for (std::size_t k = 0; k < a.lights.size(); ++k) joins = joins && closed_form(before, out.shades_[before.shades + k]);
+      if (joins) {  // two closed forms are one
+        before.end = p.end;
+        out.shades_.resize(p.shades);
+        return;
+      }
+    }
+    out.panels_.push_back(p);
+  }
+
+  void run() {
+    const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
+    const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
+    for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);
+    const Range all{0, static_cast<std::uint32_t>(stack.size())};
+    for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      const auto begin = static_cast<std::uint32_t>(stack.size());
+      for (std::uint32_t i = 0; i < a.gaussians.size(); ++i) stack.push_back(i);
+      ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
+    }
+    // Stretches with Gaussians, joined where they overlap; between and behind them only what is everywhere.
+    std::vector<std::pair<double, double>> stretches;
+    for (const Met& m : met) stretches.emplace_back(m.begin, std::min(m.end, limit));
+    std::sort(stretches.begin(), stretches.end());
+    double at = 0;
+    const auto between = [&](double to) {  // lengths that grow with distance
+      for (double next = 0; everywhere && at < to; at = next) {
+        next = std::min(to, std::max(4 * at, 1.0));
+        cut(at, next, all, 0, 60);
+      }
+    };
+    for (std::size_t i = 0; i < stretches.size();) {
+      double begin = stretches[i].first, end = stretches[i].second;
+      for (; i < stretches.size() && stretches[i].first <= end; ++i) end = std::max(end, stretches[i].second);
+      if (!(begin < limit)) break;
+      between(begin);
+      cut(begin, end, all, 0, 60);
+      at = end;
+    }
+    between(limit);
+  }
+};
+
+void GaussianPanels::make(const GaussianAirlight& a, int x, int y) {
+  panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
+  Build(a, *this, x, y).run();
+}
+
+}  // namespace airlight

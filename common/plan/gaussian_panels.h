@@ -1,0 +1,66 @@
+// How the rays of a small square of the screen are cut where they run through Gaussians: panels in which everything along the ray
+// is smooth, each with the few Gaussians that matter there. Only + - * / and square roots: the same on every machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "common/algorithms/gaussian_airlight.h"
+
+namespace airlight {
+
+constexpr int bin_side = 16;  // pixels of a square
+
+// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16.
+struct GaussLegendre {
+  explicit GaussLegendre(int n);
+  std::vector<float> node, weight;
+};
+
+// The panels of one square, in order along the rays.
+class GaussianPanels {
+ public:
+  struct Range {  // of indices()
+    std::uint32_t begin = 0, end = 0;
+  };
+  // A light, seen from one panel.
+  struct Shade {
+    Range shading;             // Gaussians that may stand between it and the panel
+    std::uint32_t levels = 0;  // > 0: it is so near that the panel is cut at its foot and at length / 3^1..levels to both sides
+  };
+  struct Panel {
+    float begin = 0, end = 0;  // [m] along the rays
+    Range active;              // which of met() rays may meet within
+    Range passed;              // which were active before and are no more
+    std::uint32_t shades = 0;  // the first of its Shades, one a light
+  };
+  // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
+  static constexpr std::uint32_t around_light = 1U << 31U;
+  static constexpr int most_cuts = 96;  // of a panel, over all lights
+
+  // For the square whose upper left pixel is (x, y). What was held before is forgotten.
+  void make(const GaussianAirlight&, int x, int y);
+
+  std::span<const Panel> panels() const { return panels_; }
+  std::span<const Shade> shades() const { return shades_; }
+  std::span<const std::uint32_t> indices() const { return indices_; }
+  // All Gaussians that rays of the square may meet, ascending.
+  std::span<const std::uint32_t> met() const { return met_; }
+  // What a panel shows without sampling: no Gaussian within, none before this light.
+  static bool closed_form(const Panel& p, const Shade& s) {
+    return p.active.begin == p.active.end && s.shading.begin == s.shading.end;
+  }
+
+ private:
+  struct Cone;
+  struct Met;  // a Gaussian as the cone of the square's rays meets it
+  struct Build;
+  std::vector<Panel> panels_;
+  std::vector<Shade> shades_;
+  std::vector<std::uint32_t> indices_, met_;
+};
+
+}  // namespace airlight

@@ -1,0 +1,93 @@
+#include "common/techniques/gaussian_airlight.h"
+
+#include <algorithm>
+
+#include "common/plan/frame.h"
+
+namespace airlight {
+
+namespace {
+
+std::optional<std::string> refuses(const Scene& scene) {
+  if (scene.medium.grid) return "it renders Gaussians and homogeneous fog, the scene has a grid";
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
+  if (casters && !scene.lights.empty())
+    return "it has no shadows of surfaces in this version, the scene has surfaces that cast them (casts_shadow)";
+  return std::nullopt;
+}
+
+Plan plan(const Scene& scene, const FrameRequest& request) {
+  constexpr std::uint32_t light_transmittance_id = FramePlan::first_own_id;
+  const Medium& medium = scene.medium;
+  FramePlan frame(scene, request);
+  const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
+
+  // Section 3: the homogeneous term has a closed form where nothing shades it.
+  const bool lamps = std::any_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return !l.directional; });
+  Buffer tables;
+  if (frame.extinction > 0 && lamps) tables = frame.add_airlight_tables();
+  frame.plan.steps.push_back({GaussianAirlight{.distance = frame.distance,
+                                               .tables = tables,
+                                               .lights = frame.lights,
+                                               .gaussians = gaussians,
+                                               .view = frame.view,
+                                               .phase = medium.phase,
+                                               .extinction = frame.extinction,
+                                               .sky_distance = frame.sky_distance,
+                                               .albedo = medium.albedo,
+                                               .ambient = frame.ambient,
+                                               .emission = medium.emission,
+                                               .samples = static_cast<int>(request.knobs.number("samples")),
+                                               .airlight = frame.airlight,
+                                               .per_light = frame.per_light,
+                                               .transmittance = frame.transmittance,
+                                               .optical_depth = frame.optical_depth},
+                              "light scattered once along the view ray"});
+  // Section 4: surfaces are lit through the medium.
+  Image light_transmittance;
+  if (!gaussians.empty() && frame.has_surfaces() && !frame.lights.empty()) {
+    light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
+    frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
+                                           .voxels = {},
+                                           .lights = frame.lights,
+                                           .gaussians = gaussians,
+                                           .grid = {},
+                                           .view = frame.view,
+                                           .light_steps = 1,
+                                           .light_depth = LightDepth::analytic,
+                                           .light_transmittance = light_transmittance},
+                                "what of each light reaches the surfaces"});
+  }
+  frame.shade(light_transmittance);
+
+  // What this scene does not need.
+  if (gaussians.size() < medium.gaussians.size())
+    frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
+  if (!tables) frame.plan.skips.push_back({"airlight tables", lamps ? "no homogeneous fog" : "no point light"});
+  if (!light_transmittance)
+    frame.plan.skips.push_back({"light_march", gaussians.empty() ? "no Gaussians" : "no surface or no light"});
+  return frame.finish();
+}
+
+}  // namespace
+
+Technique gaussian_airlight() {
+  Technique t;
+  t.name = "gaussian-airlight";
+  t.summary = "analytic optical depths of Gaussians, single scattering by a few nodes each (Zhou et al. 2007)";
+  t.knobs = {{.name = "samples",
+              .kind = Knob::Kind::integer,
+              .standard = "4",
+              .least = 1,
+              .most = 16,
+              .choices = {},
+              .meaning = "nodes along the view ray in each panel, which is four radii of the smallest Gaussian there at most",
+              .sweep = {"1", "2", "3", "4", "5", "6", "8", "12", "16"}},
+             table_nodes_knob(),
+             indirect_knob()};
+  t.refuses = refuses;
+  t.plan = plan;
+  return t;
+}
+
+}  // namespace airlight

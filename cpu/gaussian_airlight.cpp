@@ -1,0 +1,329 @@
+#include "cpu/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/gaussian_airlight.cpp"
+#include <hwy/foreach_target.h>
+
+#include "common/plan/gaussian_panels.h"
+#include "cpu/held_images.h"
+#include "cpu/simd.h"
+//
+#include "cpu/pixel_rays.h"
+//
+#include "cpu/medium.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+namespace {
+
+// What a ray knows of each Gaussian of the square, behind each other in `scratch`: a vector each.
+enum : std::ptrdiff_t { foot_at = 0, lateral_at = lanes, start_at = 2 * lanes, floats_a_gaussian = 3 * lanes };
+
+struct Local {
+  Real extinction, scattering[3], emission[3];
+  Real depth;  // of Gaussians, from the camera on
+};
+
+// The rays of a vector of pixels on their way through the panels.
+struct Scattering {
+  const GaussianAirlight& a;
+  const TileView& view;
+  const GaussianPanels& panels;
+  const GaussLegendre& rule;
+  RadianceBound bound;
+  bool one_albedo, emits;
+  const float* tables;
+  float* scratch;
+
+  int i = 0;  // the first pixel
+  Real3 d;
+  Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
+
+  HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
+                        const GaussLegendre& quadrature, float* floats);
+  HWY_INLINE void begin(int first, Real length);
+  HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
+  HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
+  HWY_INLINE Real shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const;
+  HWY_INLINE void add(std::size_t light, const Real* scattered);
+  HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
+  HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
+  HWY_INLINE void panel(const GaussianPanels::Panel& p);
+};
+
+HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
+                                  const GaussLegendre& quadrature, float* floats)
+    : a(algorithm),
+      view(tile_view),
+      panels(square),
+      rule(quadrature),
+      bound(algorithm),
+      one_albedo(true),
+      emits(algorithm.emission != glm::vec3(0)),
+      tables(tile_view.floats(algorithm.tables)),
+      scratch(floats) {
+  for (const std::uint32_t k : panels.met()) {
+    one_albedo = one_albedo && (a.gaussians[k].albedo == a.albedo || !(a.extinction > 0));
+    one_albedo = one_albedo && a.gaussians[k].albedo == a.gaussians[panels.met()[0]].albedo;
+    emits = emits || a.gaussians[k].emission != glm::vec3(0);
+  }
+}
+
+HWY_INLINE void Scattering::begin(int first, Real length) {
+  i = first;
+  d = pixel_rays(a.view, view.tile, i);
+  end = min(length, 1e15);
+  front = 0.0;
+  for (Real& s : sum) s = 0.0;
+  most = bound.of(a, d);
+  float* floats = scratch;
+  for (const std::uint32_t k : panels.met()) {
+    const GaussianDensity& g = a.gaussians[k];
+    const float inverse = 1 / g.radius;
+    Real foot, h;
+    perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
+    store(foot, floats + foot_at);
+    store(gaussian_falloff(inverse, h * h), floats + lateral_at);
+    store(erf_(foot * -inverse), floats + start_at);
+    floats += floats_a_gaussian;
+  }
+  if (!a.per_light) return;
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
+  }
+}
+
+// Optical depth of a Gaussian up to t, beside that of the line through its centre.
+HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
+  const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
+  const Real u = (t - load(floats + foot_at)) * (1 / a.gaussians[panels.met()[met]].radius);
+  return load(floats + lateral_at) * max(erf_(u) - load(floats + start_at), 0.0) * 0.5;
+}
+
+HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
+  Local here;
+  here.extinction = a.extinction;
+  here.depth = front;
+  for (int c = 0; c < 3; ++c) {
+    here.scattering[c] = a.extinction * a.albedo[c];
+    here.emission[c] = a.emission[c];
+  }
+  for (std::uint32_t n = p.active.begin; n < p.active.end; ++n) {
+    const std::uint32_t met = panels.indices()[n];
+    const GaussianDensity& g = a.gaussians[panels.met()[met]];
+    const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
+    const float inverse = 1 / g.radius;
+    const Real past = t - load(floats + foot_at);
+    here.depth = fma(share_to(met, t), gaussian_whole(g.extinction, g.radius), here.depth);
+    const Real falloff = load(floats + lateral_at) * gaussian_falloff(inverse, past * past);
+    here.extinction = fma(falloff, g.extinction, here.extinction);
+    if (!one_albedo) {
+      const Real extinction = falloff * g.extinction;
+      for (int c = 0; c < 3; ++c) here.scattering[c] = fma(extinction, g.albedo[c], here.scattering[c]);
+    }
+    if (emits) {
+      for (int c = 0; c < 3; ++c) here.emission[c] = fma(falloff, g.emission[c], here.emission[c]);
+    }
+  }
+  if (one_albedo && p.active.begin < p.active.end) {
+    const glm::vec3& albedo = a.gaussians[panels.met()[0]].albedo;
+    for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * albedo[c];
+  }
+  return here;
+}
+
+// Optical depth of Gaussians between a place and a light.
+HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const {
+  Real depth = 0.0;
+  if (s.shading.begin == s.shading.end) return depth;
+  Real length;
+  const Real3 way = toward_light(light, place, length);
+  for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
+    const std::uint32_t index = panels.indices()[n];
+    const GaussianDensity& g = a.gaussians[index & ~GaussianPanels::around_light];
+    const Real3 e = to_center(g, place);
+    Real foot, h;
+    perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
+    const Real far_end = (index & GaussianPanels::around_light) != 0 ? length - foot : Real(1e15);
+    depth = fma(gaussian_depth(1 / g.radius, h, -foot, far_end), gaussian_whole(g.extinction, g.radius), depth);
+  }
+  return depth;
+}
+
+HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
+  for (int c = 0; c < 3; ++c) {
+    sum[c] += scattered[c];
+    if (!a.per_light) continue;
+    float* plane = view.plane(a.per_light, c, static_cast<int>(light)) + i;
+    store(load(plane) + scattered[c], plane);
+  }
+}
+
+// From `from` to `to` by the nodes; nothing where to <= from.
+HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
+  const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  for (std::size_t n = 0; n < rule.node.size(); ++n) {
+    const Real t = fma(half, rule.node[n], middle), weight = half * rule.weight[n];
+    const Local here = local(p, t);
+    const Real depth = fma(t, a.extinction, here.depth);
+    for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
+      if (GaussianPanels::closed_form(p, shade)) continue;
+      const Light& light = a.lights[k];
+      Real phase, strength = weight, beside = shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+      if (light.directional) {
+        phase = phase_value(kind, g, -dot(real3(light.vector), d));
+      } else {
+        Real foot, h;
+        perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+        const Real past = t - foot, squared = fma(past, past, h * h), r = sqrt(squared);
+        phase = phase_value(kind, g, -past / r);
+        strength = weight / squared;
+        beside = fma(r, a.extinction, beside);
+      }
+      const Real once = phase * strength * transmittance(depth + beside);
+      Real scattered[3];
+      for (int c = 0; c < 3; ++c) scattered[c] = here.scattering[c] * once * light.power[c];
+      add(k, scattered);
+    }
+    if (emits && p.active.begin < p.active.end) {
+      const Real seen = weight * transmittance(depth);
+      for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
+    }
+  }
+}
+
+// Where only the homogeneous part is.
+HWY_INLINE void Scattering::closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going) {
+  const Real through = select(going, transmittance(front), 0.0);
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  for (std::size_t k = 0; k < a.lights.size() && a.extinction > 0; ++k) {
+    if (!GaussianPanels::closed_form(p, panels.shades()[p.shades + k])) continue;
+    const Light& light = a.lights[k];
+    Real once;
+    if (light.directional) {
+      once = directional_airlight(kind, g, a.extinction, -dot(real3(light.vector), d), from, to);
+    } else {
+      Real foot, h;
+      perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+      once = point_airlight(tables, kind, g, a.extinction, foot, h, from, to);
+    }
+    Real scattered[3];
+    for (int c = 0; c < 3; ++c) scattered[c] = once * through * (light.power[c] * a.albedo[c]);
+    add(k, scattered);
+  }
+  if (a.emission == glm::vec3(0)) return;
+  const Real length = to - from;
+  const Real seen =
+      through * transmittance(from * a.extinction) * attenuated_length(length, a.extinction, optical_depth(length, a.extinction));
+  for (int c = 0; c < 3; ++c) sum[c] = fma(seen, a.emission[c], sum[c]);
+}
+
+// Where the panel is cut, ascending, its ends among them. Returns how many.
+HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const {
+  int n = 0;
+  bool sorted = true;
+  cut[n++] = from;
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    const auto levels = static_cast<int>(panels.shades()[p.shades + k].levels);
+    if (levels == 0) continue;
+    sorted = n == 1;
+    const Light& light = a.lights[k];
+    Real foot, h;
+    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    const auto at = [&](Real t) HWY_ATTR { cut[n++] = min(max(t, from), to); };
+    float step = p.end - p.begin;
+    for (int level = 0; level < levels; ++level) at(foot - (step *= 1.0F / 3.0F));
+    at(foot);
+    for (int level = 0; level < levels; ++level, step *= 3.0F) at(foot + step);
+  }
+  cut[n++] = to;
+  for (int last = n - 1; last > 0 && !sorted; --last) {
+    for (int k = 0; k < last; ++k) {
+      const Real less = min(cut[k], cut[k + 1]), more = max(cut[k], cut[k + 1]);
+      cut[k] = less;
+      cut[k + 1] = more;
+    }
+  }
+  return n;
+}
+
+HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
+  for (std::uint32_t n = p.passed.begin; n < p.passed.end; ++n) {
+    const std::uint32_t met = panels.indices()[n];
+    const GaussianDensity& g = a.gaussians[panels.met()[met]];
+    front = fma(share_to(met, 1e15), gaussian_whole(g.extinction, g.radius), front);
+  }
+  const Real from = p.begin, to = min(p.end, end);
+  const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
+  const Mask going = seen && (from < to);
+  if (!any_lane(going)) return;
+  const Real last = select(going, to, from);
+  const bool empty = p.active.begin == p.active.end;
+  if (empty) closed_forms(p, from, last, going);
+  bool sampled = !empty;
+  for (std::size_t k = 0; k < a.lights.size(); ++k) sampled |= !GaussianPanels::closed_form(p, panels.shades()[p.shades + k]);
+  if (!sampled) return;
+  Real cut[GaussianPanels::most_cuts + 2];
+  const int n = cuts(p, from, last, cut);
+  for (int k = 0; k + 1 < n; ++k) {
+    if (any_lane(cut[k] < cut[k + 1])) sample(p, cut[k], cut[k + 1]);
+  }
+}
+
+}  // namespace
+
+// One square of the tile, its upper left pixel at (x, y) in the tile.
+static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
+                              const GaussLegendre& rule, AlignedFloats& scratch, int x, int y) {
+  Scattering s(a, view, panels, rule, scratch.resize(panels.met().size() * floats_a_gaussian));
+  const float* distance = view.plane(a.distance);
+  for (int row = y; row < y + bin_side; ++row) {
+    for (int column = x; column < x + bin_side; column += lanes) {
+      const int i = row * tile_side + column;
+      const Real length = ray_length(load(distance + i), a.sky_distance);
+      s.begin(i, length);
+      for (const GaussianPanels::Panel& p : panels.panels()) s.panel(p);
+
+      Real tau = optical_depth(length, a.extinction);
+      for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
+        const GaussianDensity& g = a.gaussians[panels.met()[met]];
+        tau = fma(s.share_to(met, s.end), gaussian_whole(g.extinction, g.radius), tau);
+      }
+      const Real source = opacity(tau);
+      for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
+      store(transmittance(tau), view.plane(a.transmittance) + i);
+      if (a.optical_depth) store(min(tau, 1e30), view.plane(a.optical_depth) + i);
+    }
+  }
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace airlight {
+
+HWY_EXPORT(gaussian_airlight);
+
+void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd) {
+  static_assert(tile_side % bin_side == 0);
+  GaussianPanels panels;
+  const GaussLegendre rule(a.samples);
+  AlignedFloats scratch;
+  for (int y = 0; y < tile_side; y += bin_side) {
+    for (int x = 0; x < tile_side; x += bin_side) {
+      if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
+      panels.make(a, view.tile.x + x, view.tile.y + y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, scratch, x, y);
+    }
+  }
+}
+
+}  // namespace airlight
+#endif

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <bit>
+#include <glm/vec4.hpp>
+
+#include "common/error.h"
+#include "common/plan/gaussian_panels.h"
+#include "gpu/medium.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr GLuint squares_binding = 0, parts_binding = 1, panels_binding = 2, shades_binding = 3, indices_binding = 4;
+constexpr int all_pieces = GaussianPanels::most_cuts + 2;
+
+// The panels of all squares, as the shader reads them; and what it may do in one dispatch (LoopBudget).
+class PanelLists {
+ public:
+  explicit PanelLists(const GaussianAirlight& a) : a_(a), columns_((a.view.extent.width + bin_side - 1) / bin_side) {
+    const int rows = (a.view.extent.height + bin_side - 1) / bin_side;
+    GaussianPanels panels;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        panels.make(a, column * bin_side, row * bin_side);
+        add(panels);
+      }
+    }
+  }
+
+  void bind(StepRunner& r) {
+    // A buffer of no bytes cannot be bound.
+    for (std::vector<glm::ivec4>* list : {&parts_, &panels_, &shades_}) {
+      if (list->empty()) list->emplace_back(0);
+    }
+    if (indices_.empty()) indices_.push_back(0);
+    const auto bound = [&](GLuint binding, std::span<const std::byte> bytes) {
+      if (bytes.size() > r.storage_limit()) {
+        throw MachineError("gaussian airlight: this OpenGL's storage buffers cannot hold the panels of " +
+                           std::to_string(a_.gaussians.size()) + " Gaussians at this resolution");
+      }
+      r.storage(binding, bytes);
+    };
+    bound(squares_binding, std::as_bytes(std::span(squares_)));
+    bound(parts_binding, std::as_bytes(std::span(parts_)));
+    bound(panels_binding, std::as_bytes(std::span(panels_)));
+    bound(shades_binding, std::as_bytes(std::span(shades_)));
+    bound(indices_binding, std::as_bytes(std::span(indices_)));
+  }
+  int columns() const { return columns_; }
+  int dispatches() const { return dispatches_; }
+
+ private:
+  void add(const GaussianPanels& p) {
+    const auto first_panel = static_cast<int>(panels_.size() / 2), first_shade = static_cast<int>(shades_.size());
+    const auto first_part = static_cast<int>(parts_.size());
+    const auto met_gaussian = [&](std::uint32_t place) { return static_cast<int>(p.met()[place]); };
+    std::int64_t rounds = 0;
+    for (const GaussianPanels::Panel& one : p.panels()) {
+      const glm::ivec2 active = list(p, one.active, met_gaussian), passed = list(p, one.passed, met_gaussian);
+      std::int64_t of_a_node = 1 + active.y - active.x;
+      int pieces = 1;
+      bool sampled = active.x < active.y;
+      for (std::size_t k = 0; k < a_.lights.size(); ++k) {
+        const GaussianPanels::Shade& s = p.shades()[one.shades + k];
+        sampled |= !GaussianPanels::closed_form(one, s);
+        of_a_node += 1 + s.shading.end - s.shading.begin;
+        if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
+      }
+      panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), sampled ? 1 : 0);
+      const int index = first_panel + static_cast<int>(&one - p.panels().data());
+      const auto lights = static_cast<std::int64_t>(a_.lights.size());
+      const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
+      const std::int64_t a_piece = sampled ? 1 + a_.samples * of_a_node : 0;
+      rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
+    }
+    for (const GaussianPanels::Shade& s : p.shades()) {
+      const glm::ivec2 shading = list(p, s.shading, [](std::uint32_t word) { return std::bit_cast<int>(word); });
+      shades_.emplace_back(shading, static_cast<int>(s.levels), 0);
+    }
+    const auto first_met = static_cast<int>(indices_.size());
+    for (const std::uint32_t g : p.met()) indices_.push_back(static_cast<int>(g));
+    squares_.emplace_back(first_part, static_cast<int>(parts_.size()), first_met, static_cast<int>(indices_.size()));
+    dispatches_ = std::max(dispatches_, static_cast<int>(parts_.size()) - first_part);
+  }
+
+  template <class Word>
+  glm::ivec2 list(const GaussianPanels& p, GaussianPanels::Range r, Word&& word) {
+    const auto begin = static_cast<int>(indices_.size());
+    for (std::uint32_t i = r.begin; i < r.end; ++i) indices_.push_back(word(p.indices()[i]));
+    return {begin, static_cast<int>(indices_.size())};
+  }
+
+  // Adds a panel to the part before it, or as one or more of its own. Returns the rounds of the last part.
+  std::int64_t split(int panel, int pieces, std::int64_t once, std::int64_t a_piece, std::int64_t rounds, bool first) {
+    const auto outside = static_cast<std::int64_t>(a_.gaussians.size() + 2 * a_.lights.size()) * 2;  // of panels
+    const std::int64_t room = LoopBudget::most - outside, all = once + pieces * a_piece;
+    if (!first && rounds + all <= room && parts_.back().w == all_pieces && parts_.back().z == 0) {
+      parts_.back().y = panel + 1;
+      return rounds + all;
+    }
+    if (all <= room) {
+      parts_.emplace_back(panel, panel + 1, 0, all_pieces);
+      return all;
+    }
+    const std::int64_t fit = (room - once) / a_piece;
+    if (fit < 1) {
+      throw MachineError(
+          "OpenGL: " + std::to_string(a_.gaussians.size()) +
+          " Gaussians lie so that one piece of a ray meets more of them than a shader may, expected fewer samples");
+    }
+    const auto step = static_cast<int>(std::min<std::int64_t>(fit, all_pieces));
+    for (int piece = 0; piece < pieces; piece += step) parts_.emplace_back(panel, panel + 1, piece, piece + step);
+    return room;
+  }
+
+  const GaussianAirlight& a_;
+  int columns_, dispatches_ = 1;
+  std::vector<glm::ivec4> squares_, parts_, panels_, shades_;
+  std::vector<int> indices_;
+};
+
+struct Knobs {
+  glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
+  int phase_kind, samples, side, columns;
+  glm::vec4 rule[16];
+};
+
+}  // namespace
+
+void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
+  std::vector<std::string> defines = bind_medium(r, a.gaussians, {}, {}, 1, LightDepth::analytic);
+  defines.push_back(r.lights(a.lights));
+  if (a.per_light) defines.push_back("WITH_PER_LIGHT");
+  if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
+  if (a.extinction > 0) defines.push_back("WITH_TABLES");
+  Program& program = r.compute("gpu/gaussian_airlight.glsl", defines);
+  r.read(0, a.distance);
+  r.read_write(0, a.airlight);
+  r.read_write(1, a.per_light);
+  r.write(2, a.transmittance);
+  r.write(3, a.optical_depth);
+  if (a.tables) r.storage(tables_binding, a.tables);
+  r.view(a.view);
+  PanelLists lists(a);
+  lists.bind(r);
+  Knobs knobs{{a.albedo, a.extinction},
+              {a.ambient, a.sky_distance},
+              {a.emission, static_cast<float>(a.phase.g)},
+              static_cast<int>(a.phase.kind),
+              a.samples,
+              bin_side,
+              lists.columns(),
+              {}};
+  const GaussLegendre rule(a.samples);
+  for (std::size_t n = 0; n < rule.node.size(); ++n) knobs.rule[n] = {rule.node[n], rule.weight[n], 0, 0};
+  r.block(knobs_binding, knobs);
+  for (int part = 0; part < lists.dispatches(); ++part) {
+    program.set("part", part);
+    program.set("last_part", part + 1 == lists.dispatches() ? 1 : 0);
+    r.each_pixel(program, a.airlight.extent, progress);
+  }
+}
+
+}  // namespace airlight

@@ -1,0 +1,270 @@
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+#include "gpu/medium.glsl"
+
+layout(binding = 0) uniform sampler2DArray distance_image;
+layout(binding = 0, rgba32f) uniform image2DArray airlight_image;
+layout(binding = 1, rgba32f) uniform image2DArray per_light_image;
+layout(binding = 2, r32f) uniform writeonly image2DArray transmittance_image;
+layout(binding = 3, r32f) uniform writeonly image2DArray optical_depth_image;
+
+layout(std140, binding = 2) uniform Knobs {
+  vec4 albedo_extinction;
+  vec4 ambient_sky_distance;
+  vec4 emission_g;
+  int phase_kind;
+  int samples;
+  int bin_side;
+  int bin_columns;
+  vec4 rule[16];  // node, weight
+};
+
+// The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; what a dispatch does for
+// it: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and the levels; Gaussians.
+layout(std430, binding = 0) readonly buffer SquareBlock { ivec4 squares[]; };
+layout(std430, binding = 1) readonly buffer PartBlock { ivec4 parts[]; };
+layout(std430, binding = 2) readonly buffer PanelBlock { ivec4 panels[]; };
+layout(std430, binding = 3) readonly buffer ShadeBlock { ivec4 shades[]; };
+layout(std430, binding = 4) readonly buffer IndexBlock { int indices[]; };
+
+// Between dispatches the airlight image holds what is summed, and the optical depth of the Gaussians that are behind.
+uniform int part;
+uniform int last_part;
+
+const int most_cuts = 98;
+const int around_light = int(0x80000000u);
+
+ivec2 pixel;
+vec3 d;
+float end;
+float front = 0.0;
+float most;
+vec3 sum = vec3(0.0);
+
+// Optical depth of a Gaussian up to t.
+float depth_to(int g, float t) {
+  vec3 c = center_radius(g).xyz;
+  float radius = center_radius(g).w;
+  float foot;
+  float h;
+  perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+  return gaussian_depth(1.0 / radius, h, -foot, t - foot) * gaussian_whole(albedo_extinction_of(g).w, radius);
+}
+
+struct Local {
+  float extinction;
+  vec3 scattering;
+  vec3 emission;
+  float depth;
+};
+
+Local local_at(ivec2 meets, float t) {
+  Local here = Local(albedo_extinction.w, albedo_extinction.xyz * albedo_extinction.w, emission_g.xyz, front);
+  for (int n = meets.x; n < meets.y; ++n) {
+    int g = indices[n];
+    vec3 c = center_radius(g).xyz;
+    float radius = center_radius(g).w;
+    float inverse = 1.0 / radius;
+    float foot;
+    float h;
+    perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+    float past = t - foot;
+    float lateral = gaussian_falloff(inverse, h * h);
+    here.depth += lateral * max(erf_(past * inverse) - erf_(-foot * inverse), 0.0) * 0.5 * gaussian_whole(albedo_extinction_of(g).w, radius);
+    float falloff = lateral * gaussian_falloff(inverse, past * past);
+    float extinction = falloff * albedo_extinction_of(g).w;
+    here.extinction += extinction;
+    here.scattering += extinction * albedo_extinction_of(g).xyz;
+    here.emission += falloff * emission_reach(g).xyz;
+  }
+  return here;
+}
+
+// Optical depth of Gaussians between a place and a light.
+float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
+  float depth = 0.0;
+  float length;
+  vec3 way = toward_light(vector, directional, place, length);
+  for (int n = shade.x; n < shade.y; ++n) {
+    int index = indices[n];
+    int g = index & ~around_light;
+    vec3 e = center_radius(g).xyz - place;
+    float radius = center_radius(g).w;
+    float foot;
+    float h;
+    perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
+    float far_end = (index & around_light) != 0 ? length - foot : 1e15;
+    depth = fma(gaussian_depth(1.0 / radius, h, -foot, far_end), gaussian_whole(albedo_extinction_of(g).w, radius), depth);
+  }
+  return depth;
+}
+
+void add(int k, vec3 scattered) {
+  sum += scattered;
+#ifdef WITH_PER_LIGHT
+  ivec3 layer = ivec3(pixel, k);
+  imageStore(per_light_image, layer, imageLoad(per_light_image, layer) + vec4(scattered, 0.0));
+#endif
+}
+
+bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.x == shade.y; }
+
+void take_samples(ivec2 meets, int first_shade, float from, float to) {
+  float width = max(to - from, 0.0) * 0.5;
+  float middle = (from + to) * 0.5;
+  for (int n = 0; n < samples; ++n) {
+    float t = fma(width, rule[n].x, middle);
+    float weight = width * rule[n].y;
+    Local here = local_at(meets, t);
+    float depth = fma(t, albedo_extinction.w, here.depth);
+    for (int k = 0; k < light_count.x; ++k) {
+      ivec4 shade = shades[first_shade + k];
+      if (closed_form(meets, shade)) continue;
+      vec4 vector_radius = light_values[2 * k];
+      vec4 power_directional = light_values[2 * k + 1];
+      bool directional = power_directional.w != 0.0;
+      vec3 v = vector_radius.xyz;
+      float phase;
+      float strength = weight;
+      float beside = shading(shade, v, directional, d * t);
+      if (directional) {
+        phase = phase_value(phase_kind, emission_g.w, -dot3(v, d));
+      } else {
+        float foot;
+        float h;
+        perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+        float past = t - foot;
+        float squared = fma(past, past, h * h);
+        float r = sqrt(squared);
+        phase = phase_value(phase_kind, emission_g.w, -past / r);
+        strength = weight / squared;
+        beside = fma(r, albedo_extinction.w, beside);
+      }
+      add(k, here.scattering * (phase * strength * transmittance(depth + beside)) * power_directional.xyz);
+    }
+    if (meets.x < meets.y) sum += weight * transmittance(depth) * here.emission;
+  }
+}
+
+// Where only the homogeneous part is.
+void closed_forms(ivec2 meets, int first_shade, float from, float to) {
+  float through = transmittance(front);
+  float extinction = albedo_extinction.w;
+#ifdef WITH_TABLES
+  for (int k = 0; k < light_count.x; ++k) {
+    if (!closed_form(meets, shades[first_shade + k])) continue;
+    vec4 vector_radius = light_values[2 * k];
+    vec4 power_directional = light_values[2 * k + 1];
+    vec3 v = vector_radius.xyz;
+    float once;
+    if (power_directional.w != 0.0) {
+      once = directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), from, to);
+    } else {
+      float foot;
+      float h;
+      perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+      once = point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, from, to);
+    }
+    add(k, once * through * (power_directional.xyz * albedo_extinction.xyz));
+  }
+#endif
+  float length = to - from;
+  sum += through * transmittance(from * extinction) * attenuated_length(length, extinction, optical_depth(length, extinction)) * emission_g.xyz;
+}
+
+float cut[most_cuts];
+int cut_count;
+
+void add_cut(float t, float from, float to) { cut[cut_count++] = min(max(t, from), to); }
+
+// Where a panel is cut, ascending, its ends among them.
+void make_cuts(int first_shade, float panel_length, float from, float to) {
+  cut_count = 0;
+  add_cut(from, from, to);
+  bool in_order = true;
+  for (int k = 0; k < light_count.x; ++k) {
+    int levels = shades[first_shade + k].z;
+    if (levels == 0) continue;
+    in_order = cut_count == 1;
+    vec4 v = light_values[2 * k];
+    float foot;
+    float h;
+    perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
+    float size = panel_length;
+    for (int level = 0; level < levels; ++level) {
+      size *= 1.0 / 3.0;
+      add_cut(foot - size, from, to);
+    }
+    add_cut(foot, from, to);
+    for (int level = 0; level < levels; ++level) {
+      add_cut(foot + size, from, to);
+      size *= 3.0;
+    }
+  }
+  add_cut(to, from, to);
+  for (int i = 1; i < cut_count && !in_order; ++i) {
+    float one = cut[i];
+    int hole = i;
+    for (; hole > 0 && cut[hole - 1] > one; --hole) cut[hole] = cut[hole - 1];
+    cut[hole] = one;
+  }
+}
+
+// Pieces first to last of a panel.
+void take_panel(int p, int first, int last) {
+  ivec4 one = panels[2 * p];
+  ivec4 two = panels[2 * p + 1];
+  float from = intBitsToFloat(one.x);
+  float panel_end = intBitsToFloat(one.y);
+  ivec2 meets = one.zw;
+  ivec2 passed = two.xy;
+  int first_shade = two.z;
+  if (first == 0) {
+    for (int n = passed.x; n < passed.y; ++n) front += depth_to(indices[n], 1e15);
+  }
+  float to = min(panel_end, end);
+  if (!(from < to) || ray_ended(fma(from, albedo_extinction.w, front), most, largest(sum))) return;
+  bool empty = meets.x == meets.y;
+  if (empty && first == 0) closed_forms(meets, first_shade, from, to);
+  if (two.w == 0) return;
+  make_cuts(first_shade, panel_end - from, from, to);
+  for (int k = first; k + 1 < cut_count && k < last; ++k) {
+    if (cut[k] < cut[k + 1]) take_samples(meets, first_shade, cut[k], cut[k + 1]);
+  }
+}
+
+void main() {
+  pixel = this_pixel();
+  if (outside(pixel)) return;
+  ivec3 at = ivec3(pixel, 0);
+  float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
+  end = min(length, 1e15);
+  d = pixel_ray(pixel);
+  ivec4 square = squares[pixel.x / bin_side + bin_columns * (pixel.y / bin_side)];
+  if (part > 0) {
+    vec4 held = imageLoad(airlight_image, at);
+    sum = held.xyz;
+    front = held.w;
+  }
+#ifdef WITH_PER_LIGHT
+  if (part == 0) {
+    for (int k = 0; k < light_count.x; ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
+  }
+#endif
+  if (square.x + part < square.y) {
+    most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
+    ivec4 mine = parts[square.x + part];
+    for (int p = mine.x; p < mine.y; ++p) take_panel(p, mine.z, mine.w);
+  }
+  if (last_part == 0) {
+    imageStore(airlight_image, at, vec4(sum, front));
+    return;
+  }
+  float tau = optical_depth(length, albedo_extinction.w);
+  for (int n = square.z; n < square.w; ++n) tau += depth_to(indices[n], end);
+  imageStore(airlight_image, at, vec4(fma(vec3(opacity(tau)), ambient_sky_distance.xyz, sum), 0.0));
+  imageStore(transmittance_image, at, vec4(transmittance(tau)));
+#ifdef WITH_OPTICAL_DEPTH
+  imageStore(optical_depth_image, at, vec4(min(tau, 1e30)));
+#endif
+}

@@ -1,0 +1,86 @@
+#include "common/plan/airlight_tables.h"
+#include "tests/parity/inputs.h"
+#include "tests/parity/medium.h"
+
+namespace airlight {
+
+namespace {
+
+struct Parts {
+  float extinction = 0;
+  int gaussians = 7;
+  int samples = 4;
+  Phase phase = {PhaseKind::henyey_greenstein, 0.4};
+  float sky_distance = 100;
+  bool parts = true;         // per light, optical depth
+  bool lamp_within = false;  // a lamp at the centre of a Gaussian, others close to rays
+  bool dark = false;         // no light
+};
+
+Case scatter(Extent extent, const Parts& parts) {
+  Case c;
+  const View view = test_view(extent);
+  const TestSurfaces surfaces = sphere_on_plane(view, 1);
+  add_to(c, surfaces);
+  const std::vector<GaussianDensity> gaussians = test_gaussians(parts.gaussians);
+  std::vector<Light> lights = parts.dark ? std::vector<Light>{} : test_lights();
+  if (parts.lamp_within) lights.push_back({.vector = gaussians.at(0).center, .power = {3, 4, 5}});
+  Buffer tables;
+  if (parts.extinction > 0) {
+    const std::vector<float> values = airlight_tables(parts.phase, 64);
+    const auto bytes = std::as_bytes(std::span(values));
+    tables = {{4}, bytes.size()};
+    c.buffers.emplace_back(tables, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  }
+  const Image total{{5}, Format::rgb32f, extent, 1, true};
+  const Image through{{6}, Format::r32f, extent, 1, true};
+  const Image each{{7}, Format::rgb32f, extent, std::max(1, static_cast<int>(lights.size())), true};
+  const Image depth{{8}, Format::r32f, extent, 1, true};
+  c.steps = {{GaussianAirlight{.distance = surfaces.distance,
+                               .tables = tables,
+                               .lights = lights,
+                               .gaussians = gaussians,
+                               .view = view,
+                               .phase = parts.phase,
+                               .extinction = parts.extinction,
+                               .sky_distance = parts.sky_distance,
+                               .albedo = {0.9F, 0.8F, 0.7F},
+                               .ambient = {0.01F, 0.02F, 0.03F},
+                               .emission = {0.003F, 0.002F, 0.001F},
+                               .samples = parts.samples,
+                               .airlight = total,
+                               .per_light = parts.parts ? each : Image{},
+                               .transmittance = through,
+                               .optical_depth = parts.parts ? depth : Image{}},
+              ""}};
+  c.results = {{"airlight", total}, {"transmittance", through}};
+  if (parts.parts) c.results.insert(c.results.end(), {{"per_light", each}, {"optical_depth", depth}});
+  return c;
+}
+
+const NamedCase cases[] = {
+    {"gaussian_airlight/seven", [](Extent e) { return scatter(e, {.parts = false}); }},
+    {"gaussian_airlight/in_fog", [](Extent e) { return scatter(e, {.extinction = 0.06F, .sky_distance = 1e30F}); }},
+    {"gaussian_airlight/fog_alone",
+     [](Extent e) { return scatter(e, {.extinction = 0.1F, .gaussians = 0, .sky_distance = 1e30F}); }},
+    {"gaussian_airlight/glow_alone", [](Extent e) { return scatter(e, {.dark = true}); }},
+    {"gaussian_airlight/lamp_within", [](Extent e) { return scatter(e, {.samples = 3, .lamp_within = true}); }},
+    {"gaussian_airlight/sixteen_samples", [](Extent e) { return scatter(e, {.samples = 16, .phase = {}}); }},
+    {"gaussian_airlight/many",
+     [](Extent e) {
+       return scatter(e, {.extinction = 0.02F, .gaussians = 132, .samples = 2, .sky_distance = 50, .parts = false});
+     }},
+};
+
+// More rounds than llvmpipe's loops may make at once: several dispatches.
+const NamedCase in_parts[] = {
+    {"gaussian_airlight/in_parts",
+     [](Extent e) { return scatter(e, {.extinction = 0.05F, .gaussians = 100, .samples = 12, .lamp_within = true}); }},
+};
+
+}  // namespace
+
+std::span<const NamedCase> gaussian_airlight_cases() { return cases; }
+std::span<const NamedCase> long_gaussian_airlight_cases() { return in_parts; }
+
+}  // namespace airlight
