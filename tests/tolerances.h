@@ -38,6 +38,8 @@ inline constexpr Tolerance tolerances[] = {
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
     {"truth_marching", 0.015,
      "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
+    {"truth_gaussians", 0.02, "relative RMSE of gaussian-airlight by default, four nodes a panel: what the knob promises"},
+    {"truth_gaussians_fine", 0.002, "the same with eight nodes"},
     {"truth_airlight_everywhere", 0.002,
      "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
      "airlight"},

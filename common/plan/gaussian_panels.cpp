@@ -14,6 +14,9 @@ constexpr double near_light = 0.7;   // of a panel's length: nearer lights have 
 constexpr double cut_ratio = 3;      // from one cut to the next
 constexpr double unseen_depth = 90;  // of the homogeneous part: nothing is seen beyond
 constexpr double horizon = 1e15;     // [m]
+constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
+// What finer panels are worth falls with what stands before them: after this many they are taken as they come.
+constexpr std::size_t many_panels = 1024;
 
 // cos(x) for x in 0..pi by its series: the same on every machine, where the C library's is not.
 double cosine(double x) {
@@ -28,7 +31,10 @@ double cosine(double x) {
 double squared(double x) { return x * x; }
 
 // An upper bound of exp(-q), q >= 0.
-double falloff_bound(double q) { return 1 / (1 + q * (1 + q * (0.5 + q / 6))); }
+double falloff_bound(double q) {
+  const double y = q / 16;
+  return 1 / squared(squared(squared(squared(1 + y * (1 + y * (0.5 + y / 6))))));
+}
 
 // How much sooner than 1/r^2 alone a phase function makes the light near a lamp change.
 double sharpness(const Phase& phase) {
@@ -115,8 +121,9 @@ struct GaussianPanels::Cone {
 };
 
 struct GaussianPanels::Met {
-  double begin, end;       // [m] along the rays, within its reach
-  double radius, density;  // density: an upper bound of its extinction on the rays
+  double begin, end;             // [m] along the rays, within its reach
+  double least_foot, most_foot;  // [m]
+  double radius, extinction, least_distance;
 };
 
 struct GaussianPanels::Build {
@@ -149,7 +156,7 @@ struct GaussianPanels::Build {
     const double begin = std::max(0.0, cone.least_foot(p) - chord), end = cone.most_foot(p) + chord;
     if (end <= 0) return;
     out.met_.push_back(index);
-    met.push_back({begin, end, radius, static_cast<double>(g.extinction) * falloff_bound(squared(h / radius))});
+    met.push_back({begin, end, cone.least_foot(p), cone.most_foot(p), radius, static_cast<double>(g.extinction), h});
   }
 
   // Whether a Gaussian may shade some place of the sphere from the light.
@@ -169,6 +176,17 @@ struct GaussianPanels::Build {
     const double beside = std::sqrt(std::max(0.0, glm::dot(e, e) - along * along));
     const double sine = s.radius / length, cosine = std::sqrt(1 - sine * sine);
     return beside * cosine < std::max(0.0, along) * sine + reach * (1 + 1e-6);
+  }
+
+  // Whether a Gaussian may have something of a way from the sphere behind the light.
+  static bool is_around(const GaussianDensity& g, const Light& light, const Sphere& s) {
+    if (light.directional) return false;
+    const glm::dvec3 e(g.center - light.vector), way = s.center - glm::dvec3(light.vector);
+    const double length = glm::length(way);
+    if (glm::dot(e, e) < squared(static_cast<double>(g.reach)) || length <= s.radius * 1.001) return true;
+    const double along = glm::dot(e, way) / length, beside = std::sqrt(std::max(0.0, glm::dot(e, e) - along * along));
+    const double sine = s.radius / length;
+    return along * std::sqrt(1 - sine * sine) <= beside * sine;
   }
 
   // The longest panel at a distance from a light over which the shadow of a Gaussian is smooth.
@@ -220,7 +238,8 @@ struct GaussianPanels::Build {
       const Met& m = met[at];
       if (m.begin >= end || m.end <= begin) continue;
       longest = std::min(longest, panel_radii * m.radius);
-      density += m.density;
+      const double away = std::max({0.0, begin - m.most_foot, m.least_foot - end});
+      density += m.extinction * falloff_bound((squared(m.least_distance) + squared(away)) / squared(m.radius));
       stack.push_back(at);
     }
     const Range inside{first, static_cast<std::uint32_t>(stack.size())};
@@ -239,9 +258,10 @@ struct GaussianPanels::Build {
         if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
       }
       if (sampled && any) longest = std::min(longest, panel_depth / density);
-      const bool good = !sampled || (end - begin <= longest && cuts <= most_cuts);
-      if (good || depth == 0) {
-        add(begin, end, inside, shading);
+      const bool fine = end - begin <= longest || out.panels_.size() > many_panels;
+      const bool good = !sampled || (fine && cuts <= most_cuts);
+      if (good || depth == 0 || end - begin < finest * end) {
+        add(begin, end, inside, shading, sphere);
       } else {
         const double middle = begin + (end - begin) / 2;
         cut(begin, middle, inside, shading, depth - 1);
@@ -252,7 +272,7 @@ struct GaussianPanels::Build {
     ranges.resize(ranges_size);
   }
 
-  void add(double begin, double end, Range inside, std::size_t shading) {
+  void add(double begin, double end, Range inside, std::size_t shading, const Sphere& sphere) {
     Panel p;
     p.begin = static_cast<float>(begin);
     p.end = static_cast<float>(end);
@@ -270,20 +290,21 @@ struct GaussianPanels::Build {
     p.passed.end = static_cast<std::uint32_t>(out.indices_.size());
     last_active = p.active;
     p.shades = static_cast<std::uint32_t>(out.shades_.size());
+    std::uint32_t cuts = 0;
     bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       Shade s;
       s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
       for (std::uint32_t i = ranges[shading + k].begin; i < ranges[shading + k].end; ++i) {
-        const GaussianDensity& g = a.gaussians[stack[i]];
-        const glm::vec3 e = g.center - a.lights[k].vector;
-        const bool around = !a.lights[k].directional && glm::dot(e, e) < g.reach * g.reach;
+        const bool around = is_around(a.gaussians[stack[i]], a.lights[k], sphere);
         out.indices_.push_back(stack[i] | (around ? around_light : 0));
       }
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
       const bool closed = closed_form(p, s);
       plain = plain && closed;
-      if (!closed) s.levels = levels(a.lights[k], begin, end);
+      // Only a panel that cannot be divided any more has more cuts than there is room for.
+      const std::uint32_t n = closed ? 0 : levels(a.lights[k], begin, end);
+      if (n > 0 && cuts + 2 * n + 1 <= most_cuts) s.levels = n, cuts += 2 * n + 1;
       out.shades_.push_back(s);
     }
     if (plain && !out.panels_.empty() && out.panels_.back().active.begin == out.panels_.back().active.end) {

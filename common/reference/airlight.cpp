@@ -134,6 +134,18 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
       t.push_back(light.directional ? x - y * along / height : along + (x - along) * (height / (height - y)));
     }
   }
+  // Of many Gaussians the breaks lie closer than anything changes.
+  if (medium_.gaussians.size() > 32 && !on_ray_.empty()) {
+    double thinnest = infinity;
+    for (const OnRay& o : on_ray_) thinnest = std::min(thinnest, 1 / o.line.a);
+    std::sort(t.begin(), t.end());
+    double last = -infinity;
+    std::erase_if(t, [&](double at) {
+      if (at < last + 0.7 * thinnest) return true;
+      last = at;
+      return false;
+    });
+  }
   if (medium_.field && (medium_.extinction > 0 || !on_ray_.empty())) add_grid_breaks(light, t);
 }
 

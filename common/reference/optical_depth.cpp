@@ -57,7 +57,10 @@ double GaussianOnLine::density(double t) const {
 double optical_depth(const std::vector<Gaussian>& gaussians, const glm::dvec3& from, const glm::dvec3& unit_direction,
                      double length) {
   double sum = 0;
-  for (const Gaussian& g : gaussians) sum += GaussianOnLine(g, from, unit_direction).depth(0, length);
+  for (const Gaussian& g : gaussians) {
+    const GaussianOnLine line(g, from, unit_direction);
+    if (line.a * line.h < 10) sum += line.depth(0, length);  // beyond, 1e-43 of its own depth
+  }
   return sum;
 }
 

@@ -127,10 +127,10 @@ Scene extreme_medium(std::uint32_t seed) {
 
 class Extremes : public testing::TestWithParam<std::string> {};
 
-void expect_finite(const std::string& backend, Scene (*make)(std::uint32_t), const RenderSettings& asked) {
+void expect_finite(const std::string& backend, Scene (*make)(std::uint32_t), const RenderSettings& asked,
+                   std::uint32_t scenes = 120) {
   Renderer renderer({.backend = backend, .gl_context = "osmesa"});
   float largest = 0;
-  constexpr std::uint32_t scenes = 120;
   for (std::uint32_t seed = 1; seed <= scenes; ++seed) {
     const Scene scene = make(seed);
     RenderSettings settings = asked;
@@ -155,6 +155,20 @@ TEST_P(Extremes, GiveFiniteNumbersWhenMarched) {
   expect_finite(GetParam(), extreme_medium, settings);
   settings.knobs.emplace_back("shadow", "march");
   expect_finite(GetParam(), extreme_medium, settings);
+}
+
+// The same without the grid.
+Scene extreme_gaussians(std::uint32_t seed) {
+  Scene s = extreme_medium(seed);
+  s.medium.grid.reset();
+  return s;
+}
+
+TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
+  RenderSettings settings;
+  settings.technique = "gaussian-airlight";
+  settings.knobs = {{"samples", "3"}};
+  expect_finite(GetParam(), extreme_gaussians, settings, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Extremes, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
