@@ -47,8 +47,14 @@ struct RunOfTiles {
 
 class ShadowRun {
  public:
+  // The published order needs no lists.
   ShadowRun(const ShadowPlanes& a, StepRunner& r, Program& program, const Progress& progress)
-      : a_(a), r_(r), program_(program), progress_(progress), limit_(r.storage_limit()) {}
+      : a_(a),
+        r_(r),
+        program_(program),
+        progress_(progress),
+        limit_(r.storage_limit()),
+        capacity_(a.order == ShadowOrder::published ? 0 : short_list) {}
 
   void light(int index, const ShadowQuads& quads, std::int64_t covering) {
     const Extent extent = a_.view.extent;
@@ -100,6 +106,9 @@ class ShadowRun {
       r_.storage(begin_binding, std::as_bytes(std::span(run.begin)));
       r_.storage(planes_binding, std::as_bytes(std::span(run.planes)));
       r_.storage(changes_binding, std::as_bytes(std::span(run.changes)));
+    }
+    const bool lists = any && capacity_ > 0;
+    if (lists) {
       r_.scratch(lists_binding, list_bytes(run.count));
       const std::uint32_t none = 0;
       r_.storage(most_binding, std::as_bytes(std::span(&none, 1)));
@@ -107,7 +116,7 @@ class ShadowRun {
     program_.use();
     r_.gl().DispatchCompute(static_cast<GLuint>((width + 15) / 16), static_cast<GLuint>((height + 3) / 4), 1);
     r_.gl().MemoryBarrier(GL_ALL_BARRIER_BITS);
-    if (!any) return true;
+    if (!lists) return true;
     std::uint32_t most = 0;
     r_.read_storage(most_binding, std::as_writable_bytes(std::span(&most, 1)));
     if (most <= static_cast<std::uint32_t>(capacity_)) return true;
@@ -120,7 +129,7 @@ class ShadowRun {
   Program& program_;
   const Progress& progress_;
   std::size_t limit_;
-  int capacity_ = short_list;
+  int capacity_;
 };
 
 }  // namespace
@@ -128,7 +137,8 @@ class ShadowRun {
 void run(const ShadowPlanes& a, StepRunner& r, const Progress& progress) {
   const std::string lights = r.lights(a.lights);
   Program& program = r.compute("gpu/shadow_planes.glsl", {lights, a.scattered ? "WITH_SCATTERED" : "",
-                                                          a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : ""});
+                                                          a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : "",
+                                                          a.order == ShadowOrder::published ? "PUBLISHED_ORDER" : ""});
   r.read(0, a.distance);
   r.write(0, a.scattered);
   r.write(1, a.light_transmittance);

@@ -1,5 +1,6 @@
 #include "common/techniques/choose.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "common/error.h"
@@ -44,6 +45,7 @@ Choice choose(const Scene& scene, Extent extent, const Goal& goal, std::string_v
     }
     for (const Settings& settings : products(t.knobs)) {
       const Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, settings), threads);
+      if (!std::isfinite(e.error)) continue;  // a baseline, for comparisons alone
       if (nearest.technique.empty() || missed(e) < missed(nearest.estimate)) nearest = {std::string(t.name), settings, e};
       if (missed(e) <= 1 && (best.technique.empty() || cost(e) < cost(best.estimate))) best = {std::string(t.name), settings, e};
     }

@@ -26,7 +26,7 @@ struct Knob {
   double least = 0, most = 0;             // integer and number
   std::vector<std::string_view> choices;  // choice
   std::string_view meaning;
-  std::vector<std::string_view> sweep;  // values for time against error, coarse to fine
+  std::vector<std::string_view> sweep;  // values for time against error: numbers coarse to fine, of choices the standard first
 };
 
 // The values of a technique's knobs. Throws InputError for an unknown knob (with a suggestion), a value out of its range.
@@ -75,7 +75,7 @@ struct Plan {
 // What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's
 // file.
 struct Estimate {
-  double error = 0;    // relative RMSE of beauty
+  double error = 0;    // relative RMSE of beauty; infinite: nothing is promised
   double seconds = 0;  // of a warm frame on the CPU of docs/RESULTS.md
 };
 
