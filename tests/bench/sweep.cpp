@@ -39,6 +39,22 @@ TEST(Sweep, KnobsThatDoNothingAreLeftOut) {
   EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps * (marching.knobs[1].sweep.size() + 1));
 }
 
+TEST(Sweep, ThePublishedOrderIsMeasuredWhereShadowsAreThrown) {
+  Scene scene = foggy();
+  const Technique& planes = technique("shadow-planes");
+  const std::size_t nodes = planes.knobs[0].sweep.size();
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
+  mesh->normals.assign(3, {0, 1, 0});
+  mesh->triangles = {{0, 1, 2}};
+  scene.surfaces.emplace_back();
+  scene.surfaces[0].mesh = mesh;
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), 2 * nodes);
+  scene.surfaces[0].casts_shadow = false;
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
+}
+
 TEST(Sweep, ConfigurationsAreOfTechniquesThatRenderTheScene) {
   Scene scene = foggy();
   scene.technique = "marching";
