@@ -47,14 +47,8 @@ struct RunOfTiles {
 
 class ShadowRun {
  public:
-  // The published order needs no lists.
   ShadowRun(const ShadowPlanes& a, StepRunner& r, Program& program, const Progress& progress)
-      : a_(a),
-        r_(r),
-        program_(program),
-        progress_(progress),
-        limit_(r.storage_limit()),
-        capacity_(a.order == ShadowOrder::published ? 0 : short_list) {}
+      : a_(a), r_(r), program_(program), progress_(progress), limit_(r.storage_limit()) {}
 
   void light(int index, const ShadowQuads& quads, std::int64_t covering) {
     const Extent extent = a_.view.extent;
@@ -106,9 +100,6 @@ class ShadowRun {
       r_.storage(begin_binding, std::as_bytes(std::span(run.begin)));
       r_.storage(planes_binding, std::as_bytes(std::span(run.planes)));
       r_.storage(changes_binding, std::as_bytes(std::span(run.changes)));
-    }
-    const bool lists = any && capacity_ > 0;
-    if (lists) {
       r_.scratch(lists_binding, list_bytes(run.count));
       const std::uint32_t none = 0;
       r_.storage(most_binding, std::as_bytes(std::span(&none, 1)));
@@ -116,7 +107,7 @@ class ShadowRun {
     program_.use();
     r_.gl().DispatchCompute(static_cast<GLuint>((width + 15) / 16), static_cast<GLuint>((height + 3) / 4), 1);
     r_.gl().MemoryBarrier(GL_ALL_BARRIER_BITS);
-    if (!lists) return true;
+    if (!any) return true;
     std::uint32_t most = 0;
     r_.read_storage(most_binding, std::as_writable_bytes(std::span(&most, 1)));
     if (most <= static_cast<std::uint32_t>(capacity_)) return true;
@@ -129,7 +120,7 @@ class ShadowRun {
   Program& program_;
   const Progress& progress_;
   std::size_t limit_;
-  int capacity_;
+  int capacity_ = short_list;
 };
 
 }  // namespace

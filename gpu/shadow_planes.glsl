@@ -34,17 +34,10 @@ layout(std430, binding = 4) buffer MostBlock { uint most_crossings; };
 // The ray of this pixel, and the light beside it.
 float reach;  // its length [m]
 float slant;  // length over z
-float end;    // 1/z of its end
 bool directional;
 float mu;    // directional light: cosine between its direction and the ray
 float foot;  // point light: of the perpendicular on the ray, and its length [m]
 float h;
-
-bool crosses(int i, vec2 in_tile, out float k) {
-  vec4 f = fma(vec4(in_tile.x), planes[3 * i + 1], fma(vec4(in_tile.y), planes[3 * i + 2], planes[3 * i]));
-  k = f.w;
-  return f.x >= 0.0 && f.y < 0.0 && f.z >= 0.0 && f.w > end;
-}
 
 float airlight(float from, float to) {
 #ifdef WITH_SCATTERED
@@ -58,26 +51,19 @@ float airlight(float from, float to) {
 
 #ifdef PUBLISHED_ORDER
 
-// Planes as wholes, from the last to the first: see ShadowOrder.
-float scattered_of(ivec2 in_run, out bool lit) {
-  int tile = in_run.x / tile_side;
-  vec2 in_tile = vec2(in_run.x - tile * tile_side, in_run.y);
-  int first = any_plane != 0 ? tile_begin[tile] : 0;
-  int last = any_plane != 0 ? tile_begin[tile + 1] : 0;
-  float k;
+// Planes as wholes, from the last to the first, in the order of the lists: see ShadowOrder.
+float sum_of_crossings(int n, int stride, int first, out bool lit) {
   int stencil = covering;
-  for (int i = first; i < last; ++i) {
-    if (crosses(i, in_tile, k)) stencil += changes[i];
-  }
+  for (int i = 0; i < n; ++i) stencil += int(lists[i * stride + first].y);
   lit = stencil <= 0;
   float sum = lit ? airlight(0.0, reach) : 0.0;
 #ifdef WITH_SCATTERED
-  for (int i = first; i < last; ++i) {
-    if (!crosses(i, in_tile, k)) continue;
+  for (int i = 0; i < n; ++i) {
+    uvec2 one = lists[i * stride + first];
     bool was_lit = stencil <= 0;
-    stencil -= changes[i];
+    stencil -= int(one.y);
     if (was_lit == (stencil <= 0)) continue;
-    float once = airlight(0.0, min(slant / k, reach));
+    float once = airlight(0.0, min(slant / uintBitsToFloat(one.x), reach));
     sum += was_lit ? -once : once;
   }
 #endif
@@ -92,25 +78,8 @@ bool nearer(uvec2 a, uvec2 b) {
   return p > q || (!(p < q) && int(a.y) < int(b.y));
 }
 
-float scattered_of(ivec2 in_run, out bool lit) {
-  lit = false;
-  int stride = corner_size.z * corner_size.w;
-  int first = in_run.y * corner_size.z + in_run.x;
-  int n = 0;
-  if (any_plane != 0) {
-    int tile = in_run.x / tile_side;
-    vec2 in_tile = vec2(in_run.x - tile * tile_side, in_run.y);
-    for (int i = tile_begin[tile]; i < tile_begin[tile + 1]; ++i) {
-      float k;
-      if (crosses(i, in_tile, k)) {
-        if (n < capacity) lists[n * stride + first] = uvec2(floatBitsToUint(k), uint(changes[i]));
-        ++n;
-      }
-    }
-    if (n > capacity) atomicMax(most_crossings, uint(n));
-  }
-  if (n > capacity) return 0.0;  // the run is repeated with longer lists
-
+// Sorted by distance, then lit part by lit part.
+float sum_of_crossings(int n, int stride, int first, out bool lit) {
   // Nearest first: Shell's sort, which is insertion sort for short lists.
   int gap = 1;
   while (gap * 3 + 1 < n) gap = gap * 3 + 1;
@@ -164,7 +133,25 @@ void main() {
   reach = ray_length(texelFetch(distance_image, ivec3(p, 0), 0).x, sky_distance);
   vec3 d = pixel_ray(p);
   slant = 1.0 / dot3(d, view_forward.xyz);
-  end = slant / max(reach, 1e-30);
+  float end = slant / max(reach, 1e-30);
+  int stride = corner_size.z * corner_size.w;
+  int first = in_run.y * corner_size.z + in_run.x;
+
+  int n = 0;
+  if (any_plane != 0) {
+    int tile = in_run.x / tile_side;
+    vec2 in_tile = vec2(in_run.x - tile * tile_side, in_run.y);
+    for (int i = tile_begin[tile]; i < tile_begin[tile + 1]; ++i) {
+      vec4 f = fma(vec4(in_tile.x), planes[3 * i + 1], fma(vec4(in_tile.y), planes[3 * i + 2], planes[3 * i]));
+      if (f.x >= 0.0 && f.y < 0.0 && f.z >= 0.0 && f.w > end) {
+        if (n < capacity) lists[n * stride + first] = uvec2(floatBitsToUint(f.w), uint(changes[i]));
+        ++n;
+      }
+    }
+    if (n > capacity) atomicMax(most_crossings, uint(n));
+  }
+  if (n > capacity) return;  // the run is repeated with longer lists
+
   vec4 vector_radius = light_values[2 * light];
   vec3 v = vector_radius.xyz;
   directional = light_values[2 * light + 1].w != 0.0;
@@ -172,12 +159,12 @@ void main() {
   foot = 0.0;
   h = 1.0;
   if (!directional) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
-  bool lit_at_end;
-  float sum = scattered_of(in_run, lit_at_end);
+  bool lit;
+  float sum = sum_of_crossings(n, stride, first, lit);
 #ifdef WITH_SCATTERED
   imageStore(scattered_image, ivec3(p, light), vec4(sum));
 #endif
 #ifdef WITH_LIGHT_TRANSMITTANCE
-  imageStore(light_transmittance_image, ivec3(p, light), vec4(lit_at_end ? 1.0 : 0.0));
+  imageStore(light_transmittance_image, ivec3(p, light), vec4(lit ? 1.0 : 0.0));
 #endif
 }
