@@ -134,7 +134,8 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .sky_distance = sky,
                                        .scattered = scattered,
                                        .light_transmittance = lit},
-                          "which parts of each ray the lights reach"});
+                          order == ShadowOrder::exact ? "which parts of each ray the lights reach"
+                                                      : "which parts of each ray the lights reach, by planes sorted as wholes"});
   }
   plan.steps.push_back({ViewTransmittance{.distance = distance,
                                           .extinction = extinction,
