@@ -26,7 +26,9 @@ struct Knob {
   double least = 0, most = 0;             // integer and number
   std::vector<std::string_view> choices;  // choice
   std::string_view meaning;
-  std::vector<std::string_view> sweep;  // values for time against error: numbers coarse to fine, of choices the standard first
+  std::vector<std::string_view> sweep;  // values for time against error, coarse to fine
+  // Choices that are measured beside the standard (of a knob without a sweep), for comparison: no goal takes them.
+  std::vector<std::string_view> baselines = {};
 };
 
 // The values of a technique's knobs. Throws InputError for an unknown knob (with a suggestion), a value out of its range.

@@ -14,11 +14,17 @@ TEST(Sweep, IsTheProductOfTheKnobsThatHaveOne) {
   for (const Settings& s : products(knobs)) all += text_of(s) + ";";
   EXPECT_EQ(all, "a=1 c=x;a=1 c=y;a=2 c=x;a=2 c=y;a=3 c=x;a=3 c=y;");
   EXPECT_EQ(products({}), std::vector<Settings>{{}});
+  knobs[1].standard = "p", knobs[1].baselines = {"q"};
+  knobs[0].sweep = {"1"};
+  all.clear();
+  for (const Settings& s : products(knobs, true)) all += text_of(s) + ";";
+  EXPECT_EQ(all, "a=1 b=p c=x;a=1 b=p c=y;a=1 b=q c=x;a=1 b=q c=y;");
+  EXPECT_EQ(products(knobs).size(), 2U);
 }
 
 TEST(Sweep, EveryValueIsOneThatItsKnobTakes) {
   for (const Technique& t : techniques()) {
-    for (const Settings& s : products(t.knobs)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
+    for (const Settings& s : products(t.knobs, true)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
   }
 }
 
