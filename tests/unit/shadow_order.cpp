@@ -106,6 +106,7 @@ TEST(ShadowOrder, KeepsEqualPlanesAndThoseThroughTheLight) {
   }
   back_to_front(edges, {.vector = {1, 1, 1}, .point = 1, .first = 0, .count = 0, .covering = 0});
   std::vector<std::int32_t> order;
+  order.reserve(edges.size());
   for (const ShadowEdge& e : edges) order.push_back(e.multiplicity);
   EXPECT_EQ(order, (std::vector<std::int32_t>{3, 4, 1, -7}));
 }
