@@ -16,8 +16,6 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-constexpr std::uint32_t change_offset = 1U << 17U;
-
 // A ScreenFunction over one tile. Its value at a pixel is rounded once where the row begins and once at the pixel, counted from
 // the tile's corner: the same bits on every target, and errors of 1e-7 of what the function varies over a tile.
 struct OnTile {
@@ -75,7 +73,7 @@ void cross(const ShadowQuad& q, const Tile& tile, const float* ends, float least
     c.k.resize(c.k.size() * 2 + 2 * tile_pixels);
     c.where.resize(c.k.size());
   }
-  const auto tag = (static_cast<std::uint32_t>(q.change) + change_offset) * static_cast<std::uint32_t>(tile_pixels);
+  const auto tag = (static_cast<std::uint32_t>(q.change) + Crossings::change_offset) * static_cast<std::uint32_t>(tile_pixels);
   const Real zero = 0.0;
   for (int y = 0; y < tile_side; ++y) {
     if (!(first[y] <= last[y])) continue;
@@ -133,12 +131,13 @@ static void shadow_cross(std::span<const ShadowQuads> chunks, const Tile& tile, 
 }
 
 // Single scattering of one light over the lit parts of every ray; `whole`: no plane touches the tile, every ray is lit
-// throughout.
+// throughout. A part that ends before it begins counts negative: the published order has such.
 static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::size_t index, bool whole, const Crossings& c) {
   const Light& light = a.lights[index];
   const float* tables = a.tables ? view.floats(a.tables) : nullptr;
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
+  const bool published = a.order == ShadowOrder::published;
   float* scattered = view.plane(a.scattered, 0, static_cast<int>(index));
   HWY_ALIGN float from[lanes], to[lanes];
   for (int i = 0; i < tile_pixels; i += lanes) {
@@ -169,11 +168,18 @@ static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::siz
           x0 = load(from);
           x1 = load(to);
         }
+        Real sign = 1.0;
+        if (published) {
+          const Real farther = max(x0, x1);
+          sign = select(x1 < x0, -1.0, 1.0);
+          x0 = min(x0, x1);
+          x1 = farther;
+        }
         const Mask there = x0 < x1;
         x1 = select(there, x1, x0);
         const Real once = light.directional ? directional_airlight(kind, g, a.extinction, mu, x0, x1)
                                             : point_airlight(tables, kind, g, a.extinction, foot, h, x0, x1);
-        sum += select(there, once, 0.0);
+        sum += select(there, sign * once, 0.0);
       }
     }
     store(sum, scattered + i);
@@ -193,80 +199,8 @@ HWY_EXPORT(shadow_scatter);
 namespace {
 
 constexpr std::size_t chunk_size = 1024;  // edges
-constexpr std::uint32_t change_offset = 1U << 17U;
 
 void fill(float* values, float v) { std::fill(values, values + tile_pixels, v); }
-
-// From the order of planes to the order along each ray.
-void sort_by_pixel(Crossings& c) {
-  c.begin.assign(tile_pixels + 1, 0);
-  for (std::size_t i = 0; i < c.count; ++i) ++c.begin[c.where[i] % tile_pixels + 1];
-  for (std::size_t p = 1; p < c.begin.size(); ++p) c.begin[p] += c.begin[p - 1];
-  if (c.sorted.size() < c.count) c.sorted.resize(c.k.size());
-  for (std::size_t i = 0; i < c.count; ++i) {
-    const std::int32_t change = static_cast<std::int32_t>(c.where[i] / tile_pixels) - static_cast<std::int32_t>(change_offset);
-    c.sorted[c.begin[c.where[i] % tile_pixels]++] = {c.k[i], change};
-  }
-  for (std::size_t p = tile_pixels; p > 0; --p) c.begin[p] = c.begin[p - 1];
-  c.begin[0] = 0;
-  // Nearest first. Of planes crossed at the same place the order does not matter: the part between them is empty.
-  const auto nearer = [](const Crossings::One& p, const Crossings::One& q) {
-    return p.k > q.k || (!(p.k < q.k) && p.change < q.change);
-  };
-  for (std::size_t p = 0; p < tile_pixels; ++p) {
-    Crossings::One* const first = c.sorted.data() + c.begin[p];
-    Crossings::One* const last = c.sorted.data() + c.begin[p + 1];
-    if (last - first > 24) {
-      std::sort(first, last, nearer);
-      continue;
-    }
-    for (Crossings::One* i = first; i < last; ++i) {
-      const Crossings::One one = *i;
-      Crossings::One* hole = i;
-      for (; hole > first && nearer(one, hole[-1]); --hole) *hole = hole[-1];
-      *hole = one;
-    }
-  }
-}
-
-// Lit parts and whether the end is lit. A ray is lit where no triangle stands between it and the light; a count below 0 can only
-// come from rounding, at a pixel whose ray grazes an edge.
-void find_parts(Crossings& c, std::int64_t covering, float* lit) {
-  c.from.clear();
-  c.to.clear();
-  c.first_part.resize(tile_pixels + 1);
-  const float* length = c.rays.data();
-  const float* slant = length + tile_pixels;
-  for (std::size_t p = 0; p < tile_pixels; ++p) {
-    c.first_part[p] = static_cast<std::uint32_t>(c.from.size());
-    std::int64_t count = covering;
-    float at = 0;         // where the ray has been followed to
-    float lit_from = -1;  // of the lit part that is open; negative: none
-    // Parts of no length count for nothing: planes crossed at the same place may come in any order.
-    const auto advance = [&](float next) {
-      if (at < next) {
-        if (count <= 0 && lit_from < 0) lit_from = at;
-        if (count > 0 && lit_from >= 0) {
-          c.from.push_back(lit_from);
-          c.to.push_back(at);
-          lit_from = -1;
-        }
-      }
-      at = next;
-    };
-    for (std::size_t i = c.begin[p]; i < c.begin[p + 1]; ++i) {
-      advance(std::min(slant[p] / c.sorted[i].k, length[p]));
-      count += c.sorted[i].change;
-    }
-    advance(length[p]);
-    if (lit_from >= 0) {
-      c.from.push_back(lit_from);
-      c.to.push_back(at);
-    }
-    if (lit) lit[p] = count <= 0 ? 1.0F : 0.0F;
-  }
-  c.first_part[tile_pixels] = static_cast<std::uint32_t>(c.from.size());
-}
 
 }  // namespace
 
@@ -324,8 +258,13 @@ void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int
       if (scattered && !covered) entry(HWY_DISPATCH_TABLE(shadow_scatter), s.simd)(a, view, i, true, c);
       continue;
     }
-    sort_by_pixel(c);
-    find_parts(c, light.covering, lit);
+    by_pixel(c);
+    if (a.order == ShadowOrder::published) {
+      find_published_parts(c, light.covering, lit);
+    } else {
+      sort_by_distance(c);
+      find_parts(c, light.covering, lit);
+    }
     if (scattered) entry(HWY_DISPATCH_TABLE(shadow_scatter), s.simd)(a, view, i, false, c);
   }
 }

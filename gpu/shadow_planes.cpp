@@ -128,7 +128,8 @@ class ShadowRun {
 void run(const ShadowPlanes& a, StepRunner& r, const Progress& progress) {
   const std::string lights = r.lights(a.lights);
   Program& program = r.compute("gpu/shadow_planes.glsl", {lights, a.scattered ? "WITH_SCATTERED" : "",
-                                                          a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : ""});
+                                                          a.light_transmittance ? "WITH_LIGHT_TRANSMITTANCE" : "",
+                                                          a.order == ShadowOrder::published ? "PUBLISHED_ORDER" : ""});
   r.read(0, a.distance);
   r.write(0, a.scattered);
   r.write(1, a.light_transmittance);

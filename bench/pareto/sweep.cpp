@@ -13,7 +13,7 @@ Settings Configuration::all_knobs() const { return KnobValues(airlight::techniqu
 std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent) {
   std::set<std::vector<std::uint64_t>> seen;
   std::vector<Settings> different;
-  for (const Settings& settings : products(technique.knobs)) {
+  for (const Settings& settings : products(technique.knobs, true)) {
     FrameRequest request;
     request.extent = extent;
     request.images = {"beauty"};

@@ -1,4 +1,4 @@
-// What is measured: every technique that renders a scene, on each backend, with every product of its knobs' sweeps.
+// What is measured: every technique that renders a scene, on each backend, with every product of its knobs' sweeps and baselines.
 #pragma once
 
 #include <string>

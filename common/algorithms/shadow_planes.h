@@ -26,10 +26,28 @@ struct ShadowEdge {
 };
 constexpr std::int32_t shadow_multiplicity = 1 << 16;
 
+// In which order a ray meets the planes that it crosses.
+//
+// exact: by distance, ray by ray.
+//
+// published: that of Biri et al. 2006, the same for all rays: the planes as wholes, back to front, which is the order of the
+// edges in `volumes`. As printed (IV-A, steps 3 to 5, and IV-E): a pixel's stencil begins as the number of shadows that its
+// surface lies in; where that is 0, the airlight from the camera to the surface is added. Then plane by plane, where it lies
+// before the surface: one that faces the camera with its lit side adds the airlight from the camera to itself if it takes the
+// stencil from 1 to 0, the others subtract it if they take it from 0 to 1. It is right where no two planes interleave that a ray
+// crosses. Where they do, parts of rays are counted that are dark, or not counted or counted twice that are lit, and a sum may be
+// negative. What the paper leaves open is decided thus:
+//  * by what a plane, which is infinite, is sorted (IV-D says "back to front" alone): see back_to_front();
+//  * what a stencil does below 0, which such an order can ask for: it counts on, as a wrapping one does, so that it ends right;
+//  * a camera in shadow (IV-E names a "different strategy"): the first stencil is the true count, ShadowLight::covering included;
+//  * meshes that are not closed (IV-B wants closed ones): a plane of multiplicity m stands for m planes in the same place, and
+//    of these counts the one that takes the stencil across 0 and 1. Closed meshes have 2 and -2 alone, which is as 1 and -1.
+// The airlight is ours, from the tables, and sums are floats, not clamped: eq. 7 and its shader have misprints.
+enum class ShadowOrder { exact, published };
+
 // Which parts of each pixel's ray each light reaches, from the shadow planes that the ray crosses before it ends: single
-// scattering on these parts, and whether the surface at its end is lit (Biri et al. 2006, III-D and IV; every crossing is kept
-// and sorted by its distance, where the paper sorts whole planes). The end of a lit part is where the ray crosses a plane,
-// computed from the plane: no sampling.
+// scattering on these parts, and whether the surface at its end is lit (Biri et al. 2006, III-D and IV). The end of a lit part is
+// where the ray crosses a plane, computed from the plane: no sampling.
 struct ShadowPlanes {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer volumes;  // ShadowLight and ShadowEdge
@@ -37,6 +55,7 @@ struct ShadowPlanes {
   std::vector<Light> lights;
   View view;
   Phase phase;
+  ShadowOrder order = ShadowOrder::exact;
   float extinction = 0;        // [1/m]
   float sky_distance = 1e30F;  // [m]; 1e30 and above stand for infinity
 
@@ -53,6 +72,7 @@ struct ShadowPlanes {
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);
     v(knob("phase"), s.phase);
+    v(knob("order"), s.order);
     v(knob("extinction", "1/m"), s.extinction);
     v(knob("sky_distance", "m"), s.sky_distance);
     v(out("scattered"), s.scattered);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "common/plan/hash.h"
 
@@ -82,7 +83,24 @@ bool shadow_matters(const Scene& scene, const Surface& surface, const LightSourc
   return !(sigma * glm::distance(light.position, glm::clamp(light.position, box.low, box.high)) > black);
 }
 
-ShadowVolumes shadow_volumes(const Scene& scene, const std::vector<std::size_t>& lights) {
+void back_to_front(std::span<ShadowEdge> edges, const ShadowLight& light) {
+  const glm::dvec3 l(light.vector[0], light.vector[1], light.vector[2]);
+  // Grows with the angle, and asks no library for it.
+  const auto farness = [&](const ShadowEdge& e) {
+    const glm::dvec3 middle = 0.5 * glm::dvec3(e.a[0] + e.b[0], e.a[1] + e.b[1], e.a[2] + e.b[2]);
+    const double beside = glm::length(glm::cross(l, middle));  // |l| times the distance from the line
+    if (light.point == 0) return beside;
+    const double along = glm::dot(l, middle - l);
+    return beside > 0 ? along / beside : std::copysign(std::numeric_limits<double>::infinity(), along);
+  };
+  std::vector<std::pair<double, ShadowEdge>> sorted;
+  sorted.reserve(edges.size());
+  for (const ShadowEdge& e : edges) sorted.emplace_back(farness(e), e);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& p, const auto& q) { return p.first > q.first; });
+  std::transform(sorted.begin(), sorted.end(), edges.begin(), [](const auto& p) { return p.second; });
+}
+
+ShadowVolumes shadow_volumes(const Scene& scene, const std::vector<std::size_t>& lights, ShadowOrder order) {
   ShadowVolumes volumes;
   const glm::dvec3 camera = scene.camera.position;
   for (const std::size_t index : lights) {
@@ -107,16 +125,19 @@ ShadowVolumes shadow_volumes(const Scene& scene, const std::vector<std::size_t>&
       }
     }
     header.count = static_cast<std::int64_t>(volumes.edges.size()) - header.first;
+    if (order == ShadowOrder::published)
+      back_to_front(std::span(volumes.edges).subspan(static_cast<std::size_t>(header.first)), header);
     volumes.lights.push_back(header);
   }
   return volumes;
 }
 
-Plan::Upload shadow_volumes_upload(const Scene& scene, const std::vector<std::size_t>& lights, std::uint64_t geometry_key,
-                                   std::uint32_t id) {
+Plan::Upload shadow_volumes_upload(const Scene& scene, const std::vector<std::size_t>& lights, ShadowOrder order,
+                                   std::uint64_t geometry_key, std::uint32_t id) {
   Hash key;
   key.add(std::string_view("shadow volumes"));
   key.add(geometry_key);
+  key.add(order);
   key.add(scene.medium.extinction);
   Scene kept;  // shares the meshes, so that the upload may outlive the scene
   kept.camera = scene.camera;
@@ -132,8 +153,8 @@ Plan::Upload shadow_volumes_upload(const Scene& scene, const std::vector<std::si
     const glm::dvec3 where = light.type == LightType::directional ? light.direction : light.position;
     for (int c = 0; c < 3; ++c) key.add(where[c]);
   }
-  return {{{id}, 0}, key.value(), [kept, all] {
-            const ShadowVolumes volumes = shadow_volumes(kept, all);
+  return {{{id}, 0}, key.value(), [kept, all, order] {
+            const ShadowVolumes volumes = shadow_volumes(kept, all, order);
             const auto header = std::as_bytes(std::span(volumes.lights)), edges = std::as_bytes(std::span(volumes.edges));
             std::vector<std::byte> bytes(header.begin(), header.end());
             bytes.insert(bytes.end(), edges.begin(), edges.end());

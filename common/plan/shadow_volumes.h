@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/algorithms/shadow_planes.h"
@@ -22,11 +23,17 @@ struct ShadowVolumes {
   std::vector<ShadowLight> lights;
   std::vector<ShadowEdge> edges;
 };
-// `lights`: positions in Scene::lights, in the order of the algorithm's.
-ShadowVolumes shadow_volumes(const Scene&, const std::vector<std::size_t>& lights);
+// `lights`: positions in Scene::lights, in the order of the algorithm's. Edges of one light lie as the meshes have them, or for
+// the published order back to front.
+ShadowVolumes shadow_volumes(const Scene&, const std::vector<std::size_t>& lights, ShadowOrder);
+
+// Sorts shadow planes as wholes, the last met by a ray from the camera first. Along any such ray the angle at a point light
+// between the camera and the ray's point grows (for a directional light: the distance from the line through the camera toward
+// it), so a plane, whose points have the angles of its edge, is sorted by that of the edge's middle. Equal ones keep their order.
+void back_to_front(std::span<ShadowEdge>, const ShadowLight&);
 
 // The same as an upload. `geometry_key` names positions and triangles relative to the camera (Geometry).
-Plan::Upload shadow_volumes_upload(const Scene&, const std::vector<std::size_t>& lights, std::uint64_t geometry_key,
+Plan::Upload shadow_volumes_upload(const Scene&, const std::vector<std::size_t>& lights, ShadowOrder, std::uint64_t geometry_key,
                                    std::uint32_t id);
 
 }  // namespace airlight

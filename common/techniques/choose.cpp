@@ -1,18 +1,24 @@
 #include "common/techniques/choose.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "common/error.h"
 
 namespace airlight {
 
-std::vector<Settings> products(std::span<const Knob> knobs) {
+std::vector<Settings> products(std::span<const Knob> knobs, bool baselines) {
   std::vector<Settings> all{{}};
   for (const Knob& knob : knobs) {
-    if (knob.sweep.empty()) continue;
+    std::vector<std::string_view> values = knob.sweep;
+    if (baselines && !knob.baselines.empty()) {
+      values = {knob.standard};
+      values.insert(values.end(), knob.baselines.begin(), knob.baselines.end());
+    }
+    if (values.empty()) continue;
     std::vector<Settings> longer;
     for (const Settings& settings : all) {
-      for (const std::string_view value : knob.sweep) {
+      for (const std::string_view value : values) {
         longer.push_back(settings);
         longer.back().emplace_back(knob.name, value);
       }
@@ -42,11 +48,17 @@ Choice choose(const Scene& scene, Extent extent, const Goal& goal, std::string_v
       reasons += "; " + std::string(t.name) + ": " + *why;
       continue;
     }
+    bool known = false;
     for (const Settings& settings : products(t.knobs)) {
-      const Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, settings), threads);
+      Settings all = t.name == scene.technique ? scene.settings : Settings();  // they hold where the goal has none
+      all.insert(all.end(), settings.begin(), settings.end());
+      const Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, all), threads);
+      if (!std::isfinite(e.error)) continue;
+      known = true;
       if (nearest.technique.empty() || missed(e) < missed(nearest.estimate)) nearest = {std::string(t.name), settings, e};
       if (missed(e) <= 1 && (best.technique.empty() || cost(e) < cost(best.estimate))) best = {std::string(t.name), settings, e};
     }
+    if (!known) reasons += "; " + std::string(t.name) + ": how large its error is with the scene's settings is not known";
   }
   if (!best.technique.empty()) return best;
   throw InputError("no technique of this version is expected to meet the goal" +

@@ -1,6 +1,7 @@
 #include "common/techniques/shadow_planes.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/plan/frame.h"
 #include "common/plan/shadow_volumes.h"
@@ -60,12 +61,13 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     tables = frame.add_airlight_tables();
   }
   Image scattered, lit;
-  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") == "on", frame.plan)) {
+  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") != "off", frame.plan)) {
+    const ShadowOrder order = request.knobs.choice("shadows") == "published" ? ShadowOrder::published : ShadowOrder::exact;
     const int layers = static_cast<int>(frame.lights.size());
     if (!scattered_lights.empty() && foggy) scattered = frame.handed_on(scattered_id, Format::r32f, layers);
     if (frame.has_surfaces()) lit = frame.handed_on(lit_id, Format::r32f, layers);
-    const Plan::Upload volumes =
-        shadow_volumes_upload(scene, frame.light_index, frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
+    const Plan::Upload volumes = shadow_volumes_upload(scene, frame.light_index, order,
+                                                       frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
     frame.plan.uploads.push_back(volumes);
     frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
                                              .volumes = volumes.buffer,
@@ -73,11 +75,14 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                              .lights = frame.lights,
                                              .view = frame.view,
                                              .phase = medium.phase,
+                                             .order = order,
                                              .extinction = frame.extinction,
                                              .sky_distance = frame.sky_distance,
                                              .scattered = scattered,
                                              .light_transmittance = lit},
-                                "which parts of each ray the lights reach"});
+                                order == ShadowOrder::exact
+                                    ? "which parts of each ray the lights reach"
+                                    : "which parts of each ray the lights reach, by planes sorted as wholes"});
   }
   frame.plan.steps.push_back({ViewTransmittance{.distance = frame.distance,
                                                 .extinction = frame.extinction,
@@ -122,7 +127,10 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   }
   const double pixels = static_cast<double>(extent.width) * extent.height;
   const double nanoseconds = pixels * (12 + lights * (casting > 0 ? 60 : 20)) + triangles * 100 + casting * lights * 150;
-  return {1e-4 + 5e-5 * coarseness * coarseness * coarseness, 1e-9 * nanoseconds / threads};
+  const double seconds = 1e-9 * nanoseconds / threads;
+  // How far planes interleave is not known without rendering them.
+  if (casting > 0 && knobs.choice("shadows") == "published") return {std::numeric_limits<double>::infinity(), seconds};
+  return {1e-4 + 5e-5 * coarseness * coarseness * coarseness, seconds};
 }
 
 }  // namespace
@@ -131,20 +139,32 @@ Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
   t.summary = "analytic single scattering and exact shadows in homogeneous fog (Biri et al. 2006)";
-  t.knobs = {table_nodes_knob(),
-             {.name = "shadows",
-              .kind = Knob::Kind::choice,
-              .standard = "on",
-              .least = 0,
-              .most = 0,
-              .choices = {"on", "off"},
-              .meaning = "shadows of the casters, in the medium and on surfaces",
-              .sweep = {}},
-             indirect_knob()};
-  t.refuses = refuses;
-  t.plan = plan;
-  t.estimate = estimate;
-  return t;
-}
+  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") != "off", frame.plan)) {
+    const ShadowOrder order = request.knobs.choice("shadows") == "published" ? ShadowOrder::published : ShadowOrder::exact;
+    const int layers = static_cast<int>(frame.lights.size());
+    if (!scattered_lights.empty() && foggy) scattered = frame.handed_on(scattered_id, Format::r32f, layers);
+    if (frame.has_surfaces()) lit = frame.handed_on(lit_id, Format::r32f, layers);
+    const Plan::Upload volumes = shadow_volumes_upload(scene, frame.light_index, order,
+                                                       frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
+    frame.plan.uploads.push_back(volumes);
+    frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
+                                             .volumes = volumes.buffer,
+                                             .tables = scattered ? tables : Buffer{},
+                                             .lights = frame.lights,
+                                             .view = frame.view,
+                                             .phase = medium.phase,
+                                             .order = order,
+                                             .extinction = frame.extinction,
+                                             .sky_distance = frame.sky_distance,
+                                             .scattered = scattered,
+                                             .light_transmittance = lit},
+                                order == ShadowOrder::exact
+                                    ? "which parts of each ray the lights reach"
+                                    : "which parts of each ray the lights reach, by planes sorted as wholes"});
+    t.refuses = refuses;
+    t.plan = plan;
+    t.estimate = estimate;
+    return t;
+  }
 
 }  // namespace airlight

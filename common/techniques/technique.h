@@ -27,6 +27,8 @@ struct Knob {
   std::vector<std::string_view> choices;  // choice
   std::string_view meaning;
   std::vector<std::string_view> sweep;  // values for time against error, coarse to fine
+  // Choices that are measured beside the standard (of a knob without a sweep), for comparison: no goal takes them.
+  std::vector<std::string_view> baselines = {};
 };
 
 // The values of a technique's knobs. Throws InputError for an unknown knob (with a suggestion), a value out of its range.
@@ -75,7 +77,7 @@ struct Plan {
 // What a frame is expected to be like before it is rendered: by a stored model, conservative in the error; see the technique's
 // file.
 struct Estimate {
-  double error = 0;    // relative RMSE of beauty
+  double error = 0;    // relative RMSE of beauty; infinite: nothing is promised
   double seconds = 0;  // of a warm frame on the CPU of docs/RESULTS.md
 };
 

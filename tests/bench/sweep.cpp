@@ -14,11 +14,17 @@ TEST(Sweep, IsTheProductOfTheKnobsThatHaveOne) {
   for (const Settings& s : products(knobs)) all += text_of(s) + ";";
   EXPECT_EQ(all, "a=1 c=x;a=1 c=y;a=2 c=x;a=2 c=y;a=3 c=x;a=3 c=y;");
   EXPECT_EQ(products({}), std::vector<Settings>{{}});
+  knobs[1].standard = "p", knobs[1].baselines = {"q"};
+  knobs[0].sweep = {"1"};
+  all.clear();
+  for (const Settings& s : products(knobs, true)) all += text_of(s) + ";";
+  EXPECT_EQ(all, "a=1 b=p c=x;a=1 b=p c=y;a=1 b=q c=x;a=1 b=q c=y;");
+  EXPECT_EQ(products(knobs).size(), 2U);
 }
 
 TEST(Sweep, EveryValueIsOneThatItsKnobTakes) {
   for (const Technique& t : techniques()) {
-    for (const Settings& s : products(t.knobs)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
+    for (const Settings& s : products(t.knobs, true)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
   }
 }
 
@@ -37,6 +43,22 @@ TEST(Sweep, KnobsThatDoNothingAreLeftOut) {
   scene.medium.gaussians.emplace_back();
   // Marched toward the light with each number of steps, or by the closed form with none.
   EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps * (marching.knobs[1].sweep.size() + 1));
+}
+
+TEST(Sweep, ThePublishedOrderIsMeasuredWhereShadowsAreThrown) {
+  Scene scene = foggy();
+  const Technique& planes = technique("shadow-planes");
+  const std::size_t nodes = planes.knobs[0].sweep.size();
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
+  mesh->normals.assign(3, {0, 1, 0});
+  mesh->triangles = {{0, 1, 2}};
+  scene.surfaces.emplace_back();
+  scene.surfaces[0].mesh = mesh;
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), 2 * nodes);
+  scene.surfaces[0].casts_shadow = false;
+  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
 }
 
 TEST(Sweep, ConfigurationsAreOfTechniquesThatRenderTheScene) {

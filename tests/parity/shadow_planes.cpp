@@ -9,7 +9,7 @@ namespace airlight {
 namespace {
 
 // The shadows of the scene's casters over a sphere on a plane, which need not be what casts them.
-Case shadows(const Scene& scene, Extent extent, float sky_distance) {
+Case shadows(const Scene& scene, Extent extent, float sky_distance, ShadowOrder order = ShadowOrder::exact) {
   Case c;
   View view = test_view(extent);
   const TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -29,7 +29,7 @@ Case shadows(const Scene& scene, Extent extent, float sky_distance) {
   const auto bytes = std::as_bytes(std::span(tables));
   const Buffer buffer{{4}, bytes.size()};
   c.buffers.emplace_back(buffer, std::vector<std::byte>(bytes.begin(), bytes.end()));
-  const Plan::Upload volumes = shadow_volumes_upload(scene, index, 1, 5);
+  const Plan::Upload volumes = shadow_volumes_upload(scene, index, order, 1, 5);
   c.buffers.emplace_back(volumes.buffer, volumes.make());
   const int layers = static_cast<int>(lights.size());
   const Image scattered{{6}, Format::r32f, extent, layers, true}, lit{{7}, Format::r32f, extent, layers, true};
@@ -39,6 +39,7 @@ Case shadows(const Scene& scene, Extent extent, float sky_distance) {
                            .lights = lights,
                            .view = view,
                            .phase = scene.medium.phase,
+                           .order = order,
                            .extinction = static_cast<float>(scene.medium.extinction),
                            .sky_distance = sky_distance,
                            .scattered = scattered,
@@ -115,6 +116,14 @@ Case no_medium(Extent e) {
   scene.medium.extinction = 0;
   return shadows(scene, e, 1e30F);
 }
+// As published, in scenes where planes interleave.
+Case published_torus(Extent e) {
+  return shadows(lit_scene(wavy_torus(2000), {-0.4, 0.3, -4.6}, 0.5), e, 1e30F, ShadowOrder::published);
+}
+Case published_slats(Extent e) { return shadows(lit_scene(slats(150), {-0.8, 0.4, -4.4}, 1.6), e, 30, ShadowOrder::published); }
+Case published_camera_in_shadow(Extent e) {
+  return shadows(lit_scene(slats(7), {0.3, 1.5, -0.4}, 2), e, 1e30F, ShadowOrder::published);
+}
 
 }  // namespace
 
@@ -127,7 +136,10 @@ std::span<const NamedCase> shadow_planes_cases() {
                                         {"shadow_planes/light_behind", light_behind},
                                         {"shadow_planes/lamp_inside", lamp_inside},
                                         {"shadow_planes/out_of_view", nothing_seen},
-                                        {"shadow_planes/no_medium", no_medium}};
+                                        {"shadow_planes/no_medium", no_medium},
+                                        {"shadow_planes/published_torus_2k", published_torus},
+                                        {"shadow_planes/published_slats", published_slats},
+                                        {"shadow_planes/published_in_shadow", published_camera_in_shadow}};
   return cases;
 }
 

@@ -7,9 +7,9 @@
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
-#include "common/relative_rmse.h"
 #include "tests/tolerances.h"
 #include "tests/truth/gaussian_scenes.h"
+#include "tests/truth/relative_error.h"
 
 namespace airlight {
 namespace {
@@ -18,16 +18,6 @@ namespace {
 Extent extent_for(const Scene& scene) {
   const std::size_t n = scene.medium.gaussians.size();
   return n > 1000 ? Extent{8, 6} : n > 100 ? Extent{24, 18} : Extent{64, 48};
-}
-
-double off_edges(const HostImage& image, const ReferenceFrame& truth, bool airlight_alone) {
-  RelativeRmse error;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-    if (truth.edges[i]) continue;
-    const glm::dvec3 expected = airlight_alone ? truth.pixels[i].airlight : truth.pixels[i].beauty();
-    for (int c = 0; c < 3; ++c) error.add(static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]), expected[c]);
-  }
-  return error.value();
 }
 
 class GaussianTruth : public testing::TestWithParam<TruthScene> {};
@@ -52,8 +42,8 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
       settings.resolution = extent;
       settings.images = {"beauty", "airlight"};
       const Frame frame = renderer.render(scene, settings);
-      const double beauty = off_edges(frame.image("beauty"), truth, false);
-      const double airlight = off_edges(frame.image("airlight"), truth, true);
+      const double beauty = relative_error(frame.image("beauty"), truth, parts[0]).off_edges;
+      const double airlight = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
       std::printf("%-3s samples %s: relative RMSE %.5f %%, of the airlight alone %.5f %%\n", backend, samples, 100 * beauty,
                   100 * airlight);
       if (name == "4") {

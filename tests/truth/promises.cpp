@@ -92,5 +92,34 @@ TEST(Choose, TakesTheCheapestOrTheBestAndSaysWhatComesNearest) {
   EXPECT_THROW(chosen_for_goal(scene, both, {}), InputError);
 }
 
+// A baseline whose error is not known before it is rendered: it serves no goal, not even one of time. What else a scene says
+// holds.
+TEST(Choose, NeverTakesThePublishedOrder) {
+  Scene scene = homogeneous_scenes()[0].make();
+  ASSERT_TRUE(scene.surfaces[0].casts_shadow);
+  const auto shadows_of = [&](const Goal& goal) {
+    RenderSettings settings;
+    settings.goal = goal;
+    const std::string told = explain(scene, settings), name = "shadows = ";
+    return told.substr(told.find(name) + name.size(), 2);
+  };
+  const Goal rough = goal_of("1000%", {}), fast = goal_of({}, "100s");
+  for (const Goal& goal : {rough, fast}) EXPECT_EQ(shadows_of(goal), "on");
+  scene.technique = "shadow-planes";
+  scene.settings = {{"shadows", "off"}};
+  for (const Goal& goal : {rough, fast}) EXPECT_EQ(shadows_of(goal), "of");
+  scene.settings = {{"shadows", "published"}};
+  for (const Goal& goal : {rough, fast}) {
+    try {
+      choose(scene, extent, goal, "", 2);
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("shadow-planes: how large its error is"), std::string::npos) << error.what();
+    }
+  }
+  for (Surface& s : scene.surfaces) s.casts_shadow = false;  // then it is exact
+  EXPECT_EQ(choose(scene, extent, rough, "shadow-planes", 2).technique, "shadow-planes");
+}
+
 }  // namespace
 }  // namespace airlight

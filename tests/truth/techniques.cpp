@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -11,8 +9,8 @@
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
-#include "common/relative_rmse.h"
 #include "tests/tolerances.h"
+#include "tests/truth/relative_error.h"
 #include "tests/truth/shadow_scenes.h"
 #include "tests/truth/truth_scenes.h"
 
@@ -20,31 +18,6 @@ namespace airlight {
 namespace {
 
 constexpr Extent extent{160, 120};
-
-struct RelativeError {
-  double off_edges = 0, everywhere = 0;
-};
-
-RelativeError relative_error(const HostImage& image, const ReferenceFrame& truth, glm::dvec3 (*part)(const ReferencePixel&)) {
-  RelativeRmse off_edges, everywhere;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-    const glm::dvec3 expected = part(truth.pixels[i]);
-    for (int c = 0; c < 3; ++c) {
-      const auto value = static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]);
-      everywhere.add(value, expected[c]);
-      if (!truth.edges[i]) off_edges.add(value, expected[c]);
-    }
-  }
-  return {off_edges.value(), everywhere.value()};
-}
-
-struct Part {
-  std::string name;
-  glm::dvec3 (*of)(const ReferencePixel&);
-};
-const std::array<Part, 3> parts{{{"beauty", [](const ReferencePixel& p) { return p.beauty(); }},
-                                 {"surface", [](const ReferencePixel& p) { return p.surface; }},
-                                 {"airlight", [](const ReferencePixel& p) { return p.airlight; }}}};
 
 class Techniques : public testing::TestWithParam<TruthScene> {};
 
@@ -72,8 +45,8 @@ void hold(const Scene& scene, const RenderSettings& asked, const ReferenceFrame&
       const HostImage& image = frame.image(part.name);
       EXPECT_EQ(image.extent, extent);
       EXPECT_EQ(image.channels, 3);
-      const RelativeError error = relative_error(image, truth, part.of);
-      std::printf("%-3s %-8s relative RMSE %.5f %% off edges, %.5f %% everywhere\n", backend, part.name.c_str(),
+      const RelativeError error = relative_error(image, truth, part);
+      std::printf("%-3s %-8s relative RMSE %.5f %% off edges, %.5f %% everywhere\n", backend, std::string(part.name).c_str(),
                   100 * error.off_edges, 100 * error.everywhere);
       const std::string_view bound = part.name == "surface" ? bounds.surface_off_edges : bounds.off_edges;
       EXPECT_FALSE(!(error.off_edges < tolerance(bound))) << backend << ' ' << part.name;
@@ -132,7 +105,7 @@ TEST_P(Marching, ConvergesToTheTruth) {
   for (const char* steps : {"16", "32", "64", "128"}) {
     settings.knobs = {{"steps", steps}, {"light_steps", steps}};
     const Frame frame = renderer.render(scene, settings);
-    errors.push_back(relative_error(frame.image("beauty"), truth, parts[0].of).off_edges);
+    errors.push_back(relative_error(frame.image("beauty"), truth, parts[0]).off_edges);
     std::printf("cpu beauty, %s steps: relative RMSE %.5f %%\n", steps, 100 * errors.back());
   }
   EXPECT_FALSE(!(errors.back() < errors.front() / 3));
