@@ -139,32 +139,23 @@ Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
   t.summary = "analytic single scattering and exact shadows in homogeneous fog (Biri et al. 2006)";
-  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") != "off", frame.plan)) {
-    const ShadowOrder order = request.knobs.choice("shadows") == "published" ? ShadowOrder::published : ShadowOrder::exact;
-    const int layers = static_cast<int>(frame.lights.size());
-    if (!scattered_lights.empty() && foggy) scattered = frame.handed_on(scattered_id, Format::r32f, layers);
-    if (frame.has_surfaces()) lit = frame.handed_on(lit_id, Format::r32f, layers);
-    const Plan::Upload volumes = shadow_volumes_upload(scene, frame.light_index, order,
-                                                       frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
-    frame.plan.uploads.push_back(volumes);
-    frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
-                                             .volumes = volumes.buffer,
-                                             .tables = scattered ? tables : Buffer{},
-                                             .lights = frame.lights,
-                                             .view = frame.view,
-                                             .phase = medium.phase,
-                                             .order = order,
-                                             .extinction = frame.extinction,
-                                             .sky_distance = frame.sky_distance,
-                                             .scattered = scattered,
-                                             .light_transmittance = lit},
-                                order == ShadowOrder::exact
-                                    ? "which parts of each ray the lights reach"
-                                    : "which parts of each ray the lights reach, by planes sorted as wholes"});
-    t.refuses = refuses;
-    t.plan = plan;
-    t.estimate = estimate;
-    return t;
-  }
+  t.knobs = {
+      table_nodes_knob(),
+      {.name = "shadows",
+       .kind = Knob::Kind::choice,
+       .standard = "on",
+       .least = 0,
+       .most = 0,
+       .choices = {"on", "published", "off"},
+       .meaning = "shadows of the casters, in the medium and on surfaces; published: planes sorted as wholes, as the paper does, "
+                  "wrong where they interleave",
+       .sweep = {},
+       .baselines = {"published"}},
+      indirect_knob()};
+  t.refuses = refuses;
+  t.plan = plan;
+  t.estimate = estimate;
+  return t;
+}
 
 }  // namespace airlight

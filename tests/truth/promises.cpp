@@ -6,27 +6,15 @@
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
-#include "common/relative_rmse.h"
 #include "common/techniques/choose.h"
 #include "tests/tolerances.h"
+#include "tests/truth/relative_error.h"
 #include "tests/truth/truth_scenes.h"
 
 namespace airlight {
 namespace {
 
 constexpr Extent extent{64, 48};
-
-// Off edges, as the models promise it.
-double relative_error(const HostImage& image, const ReferenceFrame& truth) {
-  RelativeRmse error;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-    if (truth.edges[i]) continue;
-    for (int c = 0; c < 3; ++c) {
-      error.add(static_cast<double>(image.values[3 * i + static_cast<std::size_t>(c)]), truth.pixels[i].beauty()[c]);
-    }
-  }
-  return error.value();
-}
 
 class Promises : public testing::TestWithParam<TruthScene> {};
 
@@ -52,7 +40,7 @@ TEST_P(Promises, AreKeptWithinAFactorOfTwo) {
       continue;
     }
     const Frame frame = renderer.render(scene, settings);
-    const double error = relative_error(frame.image("beauty"), truth);
+    const double error = relative_error(frame.image("beauty"), truth, parts[0]).off_edges;
     std::printf("%s: %s; measured %.3g %% and %.3g ms with cold tables\n", asked, chosen.c_str(), 100 * error,
                 1e3 * frame.stats.seconds);
     EXPECT_FALSE(!(error <= tolerance("promise") * *settings.goal.error)) << asked;
