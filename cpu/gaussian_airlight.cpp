@@ -85,7 +85,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     Real foot, h;
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
-    store(gaussian_falloff(inverse, h * h), floats + lateral_at);
+    store(select(h < g.reach, gaussian_falloff(inverse, h * h), 0.0), floats + lateral_at);
     store(erf_(foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
@@ -114,6 +114,7 @@ HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const
     const std::uint32_t met = panels.indices()[n];
     const GaussianDensity& g = a.gaussians[panels.met()[met]];
     const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
+    if (!any_lane(load(floats + lateral_at) > 0.0)) continue;
     const float inverse = 1 / g.radius;
     const Real past = t - load(floats + foot_at);
     here.depth = fma(share_to(met, t), gaussian_whole(g.extinction, g.radius), here.depth);
@@ -146,8 +147,11 @@ HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light&
     const Real3 e = to_center(g, place);
     Real foot, h;
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
+    const Mask met = h < g.reach;
+    if (!any_lane(met)) continue;
     const Real far_end = (index & GaussianPanels::around_light) != 0 ? length - foot : Real(1e15);
-    depth = fma(gaussian_depth(1 / g.radius, h, -foot, far_end), gaussian_whole(g.extinction, g.radius), depth);
+    const Real share = select(met, gaussian_depth(1 / g.radius, h, -foot, far_end), 0.0);
+    depth = fma(share, gaussian_whole(g.extinction, g.radius), depth);
   }
   return depth;
 }

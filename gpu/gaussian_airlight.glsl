@@ -48,6 +48,7 @@ float depth_to(int g, float t) {
   float foot;
   float h;
   perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+  if (h >= emission_reach(g).w) return 0.0;
   return gaussian_depth(1.0 / radius, h, -foot, t - foot) * gaussian_whole(albedo_extinction_of(g).w, radius);
 }
 
@@ -68,6 +69,7 @@ Local local_at(ivec2 meets, float t) {
     float foot;
     float h;
     perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+    if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_falloff(inverse, h * h);
     here.depth += lateral * max(erf_(past * inverse) - erf_(-foot * inverse), 0.0) * 0.5 * gaussian_whole(albedo_extinction_of(g).w, radius);
@@ -93,6 +95,7 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
     float foot;
     float h;
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
+    if (h >= emission_reach(g).w) continue;
     float far_end = (index & around_light) != 0 ? length - foot : 1e15;
     depth = fma(gaussian_depth(1.0 / radius, h, -foot, far_end), gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }

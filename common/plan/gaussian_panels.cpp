@@ -159,48 +159,61 @@ struct GaussianPanels::Build {
     met.push_back({begin, end, cone.least_foot(p), cone.most_foot(p), radius, static_cast<double>(g.extinction), h});
   }
 
-  // Whether a Gaussian may shade some place of the sphere from the light.
-  static bool shades(const GaussianDensity& g, const Light& light, const Sphere& s) {
-    const glm::dvec3 center(g.center), vector(light.vector);
-    const double reach = static_cast<double>(g.reach);
-    if (light.directional) {
-      const glm::dvec3 e = center - s.center;
-      const double toward = -glm::dot(e, vector);
-      return toward > -(reach + s.radius) && glm::dot(e, e) - toward * toward < squared(reach + s.radius) * (1 + 1e-6);
-    }
-    const glm::dvec3 way = s.center - vector, e = center - vector;
-    const double length = glm::length(way);
-    if (length <= s.radius * 1.001) return glm::length(center - s.center) < reach + s.radius;
-    const double along = glm::dot(e, way) / length;
-    if (along <= -reach || along >= length + s.radius + reach) return false;
-    const double beside = std::sqrt(std::max(0.0, glm::dot(e, e) - along * along));
-    const double sine = s.radius / length, cosine = std::sqrt(1 - sine * sine);
-    return beside * cosine < std::max(0.0, along) * sine + reach * (1 + 1e-6);
-  }
+  // All ways from a light to the places of a sphere: a cone about `toward`, a cylinder for a directional light.
+  struct Ways {
+    glm::dvec3 vector, toward;  // from the light to the sphere; from the sphere to a directional light
+    double length = 0, radius = 0, sine = 0, cosine = 1;
+    bool directional, within;  // within: the light may stand in the sphere
 
-  // Whether a Gaussian may have something of a way from the sphere behind the light.
-  static bool is_around(const GaussianDensity& g, const Light& light, const Sphere& s) {
-    if (light.directional) return false;
-    const glm::dvec3 e(g.center - light.vector), way = s.center - glm::dvec3(light.vector);
-    const double length = glm::length(way);
-    if (glm::dot(e, e) < squared(static_cast<double>(g.reach)) || length <= s.radius * 1.001) return true;
-    const double along = glm::dot(e, way) / length, beside = std::sqrt(std::max(0.0, glm::dot(e, e) - along * along));
-    const double sine = s.radius / length;
-    return along * std::sqrt(1 - sine * sine) <= beside * sine;
-  }
-
-  // The longest panel at a distance from a light over which the shadow of a Gaussian is smooth.
-  static double smooth_shadow(const GaussianDensity& g, const Light& light, const Sphere& s) {
-    const double radius = static_cast<double>(g.radius);
-    const double faint = 1 + 0.03 / (static_cast<double>(g.extinction) * radius);  // what takes little may be rough
-    double grown = 1;
-    if (!light.directional) {
-      const double distance = glm::length(glm::dvec3(g.center - light.vector));
-      const double away = glm::length(s.center - glm::dvec3(light.vector)) - s.radius;
-      grown = std::max(1.0, away / std::max(distance, radius));
+    Ways(const Light& light, const Sphere& s)
+        : vector(light.vector), radius(s.radius), directional(light.directional), within(false) {
+      if (directional) {
+        toward = -vector;
+        vector = s.center;
+        return;
+      }
+      toward = s.center - vector;
+      length = glm::length(toward);
+      within = length <= radius * 1.001;
+      if (within) {
+        vector = s.center;
+        return;
+      }
+      toward /= length;
+      sine = radius / length;
+      cosine = std::sqrt(1 - sine * sine);
     }
-    return panel_radii * radius * grown * faint;
-  }
+    // Whether a Gaussian may shade some place of the sphere from the light.
+    bool meet(const GaussianDensity& g) const {
+      const glm::dvec3 e = glm::dvec3(g.center) - vector;
+      const double reach = static_cast<double>(g.reach) * (1 + 1e-6), all = glm::dot(e, e);
+      if (within) return all < squared(reach + radius);
+      const double along = glm::dot(e, toward);
+      if (directional) return along > -(reach + radius) && all - along * along < squared(reach + radius);
+      if (along <= -reach || along >= length + radius + reach) return false;
+      return std::max(0.0, all - along * along) * squared(cosine) < squared(std::max(0.0, along) * sine + reach);
+    }
+    // Whether a Gaussian may have something of such a way behind the light.
+    bool behind(const GaussianDensity& g) const {
+      if (directional) return false;
+      if (within) return true;
+      const glm::dvec3 e = glm::dvec3(g.center) - vector;
+      const double all = glm::dot(e, e), along = glm::dot(e, toward);
+      if (all < squared(static_cast<double>(g.reach)) || along <= 0) return true;
+      return squared(along * cosine) <= std::max(0.0, all - along * along) * squared(sine);
+    }
+    // The longest panel over which the shadow of a Gaussian is smooth.
+    double smooth(const GaussianDensity& g, const Light& light) const {
+      const double r = static_cast<double>(g.radius);
+      const double faint = 1 + 0.03 / (static_cast<double>(g.extinction) * r);  // what takes little may be rough
+      double grown = 1;
+      if (!directional && length > radius) {
+        const double distance = glm::length(glm::dvec3(g.center - light.vector));
+        grown = std::max(1.0, (length - radius) / std::max(distance, r));
+      }
+      return panel_radii * r * grown * faint;
+    }
+  };
 
   // Cuts in which a light's peak has to be taken apart; 0: none.
   std::uint32_t levels(const Light& light, double begin, double end) const {
@@ -218,10 +231,11 @@ struct GaussianPanels::Build {
   void filter_shades(std::size_t from, const Sphere& s) {
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       const Range before = ranges[from + k];
+      const Ways ways(a.lights[k], s);
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = before.begin; i < before.end; ++i) {
         const std::uint32_t index = stack[i];
-        if (shades(a.gaussians[index], a.lights[k], s)) stack.push_back(index);
+        if (ways.meet(a.gaussians[index])) stack.push_back(index);
       }
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
     }
@@ -251,8 +265,9 @@ struct GaussianPanels::Build {
       bool sampled = any;
       for (std::size_t k = 0; k < a.lights.size(); ++k) {
         const Range r = ranges[shading + k];
+        const Ways ways(a.lights[k], sphere);
         for (std::uint32_t i = r.begin; i < r.end; ++i)
-          longest = std::min(longest, smooth_shadow(a.gaussians[stack[i]], a.lights[k], sphere));
+          longest = std::min(longest, ways.smooth(a.gaussians[stack[i]], a.lights[k]));
         if (!any && r.begin == r.end) continue;
         sampled = true;
         if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
@@ -295,9 +310,9 @@ struct GaussianPanels::Build {
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       Shade s;
       s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
+      const Ways ways(a.lights[k], sphere);
       for (std::uint32_t i = ranges[shading + k].begin; i < ranges[shading + k].end; ++i) {
-        const bool around = is_around(a.gaussians[stack[i]], a.lights[k], sphere);
-        out.indices_.push_back(stack[i] | (around ? around_light : 0));
+        out.indices_.push_back(stack[i] | (ways.behind(a.gaussians[stack[i]]) ? around_light : 0));
       }
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
       const bool closed = closed_form(p, s);
