@@ -1,6 +1,7 @@
 #include "common/techniques/gaussian_airlight.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/plan/frame.h"
 
@@ -69,6 +70,21 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   return frame.finish();
 }
 
+// The error of n nodes, fitted to tests/truth/gaussian_airlight.cpp on the safe side: it falls by 3.7 from one to the next, down
+// to that of single precision. Time: thread nanoseconds a pixel; of many Gaussians a ray meets few.
+Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
+  const double n = knobs.number("samples"), lights = static_cast<double>(scene.lights.size());
+  const double gaussians = static_cast<double>(gaussians_of(scene).size());
+  const double coarseness = 64 / knobs.number("table_nodes");
+  double error = 5e-5;
+  if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
+  if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
+  const double met = std::pow(gaussians, 0.75);
+  const double pixels = static_cast<double>(extent.width) * extent.height;
+  const double nanoseconds = pixels * (12 + 20 * lights + n * met * (8 + 10 * lights));
+  return {error, 1e-9 * nanoseconds / threads};
+}
+
 }  // namespace
 
 Technique gaussian_airlight() {
@@ -87,6 +103,7 @@ Technique gaussian_airlight() {
              indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
+  t.estimate = estimate;
   return t;
 }
 
