@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "cpu/gaussian_airlight.cpp"
 #include <hwy/foreach_target.h>
 
+#include "common/formulas/float.h"
 #include "common/plan/gaussian_panels.h"
 #include "cpu/held_images.h"
 #include "cpu/simd.h"
@@ -11,6 +12,19 @@
 #include "cpu/pixel_rays.h"
 //
 #include "cpu/medium.h"
+
+#ifndef AIRLIGHT_CPU_GAUSSIAN_TERMS
+#define AIRLIGHT_CPU_GAUSSIAN_TERMS
+namespace airlight {
+
+// What of a Gaussian is the same for all rays.
+struct GaussianTerms {
+  float inverse;  // of its radius [1/m]
+  float whole;    // optical depth of the line through its centre
+};
+
+}  // namespace airlight
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -31,6 +45,7 @@ struct Scattering {
   const TileView& view;
   const GaussianPanels& panels;
   const GaussLegendre& rule;
+  std::span<const GaussianTerms> terms;
   RadianceBound bound;
   bool one_albedo, emits;
   const float* tables;
@@ -41,7 +56,7 @@ struct Scattering {
   Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                        const GaussLegendre& quadrature, float* floats);
+                        const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats);
   HWY_INLINE void begin(int first, Real length);
   HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
   HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
@@ -54,11 +69,12 @@ struct Scattering {
 };
 
 HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                                  const GaussLegendre& quadrature, float* floats)
+                                  const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats)
     : a(algorithm),
       view(tile_view),
       panels(square),
       rule(quadrature),
+      terms(of_gaussians),
       bound(algorithm),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
@@ -81,7 +97,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   float* floats = scratch;
   for (const std::uint32_t k : panels.met()) {
     const GaussianDensity& g = a.gaussians[k];
-    const float inverse = 1 / g.radius;
+    const float inverse = terms[k].inverse;
     Real foot, h;
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
@@ -98,7 +114,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
 // Optical depth of a Gaussian up to t, beside that of the line through its centre.
 HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-  const Real u = (t - load(floats + foot_at)) * (1 / a.gaussians[panels.met()[met]].radius);
+  const Real u = (t - load(floats + foot_at)) * terms[panels.met()[met]].inverse;
   return load(floats + lateral_at) * max(erf_(u) - load(floats + start_at), 0.0) * 0.5;
 }
 
@@ -115,10 +131,10 @@ HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const
     const GaussianDensity& g = a.gaussians[panels.met()[met]];
     const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
     if (!any_lane(load(floats + lateral_at) > 0.0)) continue;
-    const float inverse = 1 / g.radius;
+    const GaussianTerms& term = terms[panels.met()[met]];
     const Real past = t - load(floats + foot_at);
-    here.depth = fma(share_to(met, t), gaussian_whole(g.extinction, g.radius), here.depth);
-    const Real falloff = load(floats + lateral_at) * gaussian_falloff(inverse, past * past);
+    here.depth = fma(share_to(met, t), term.whole, here.depth);
+    const Real falloff = load(floats + lateral_at) * gaussian_falloff(term.inverse, past * past);
     here.extinction = fma(falloff, g.extinction, here.extinction);
     if (!one_albedo) {
       const Real extinction = falloff * g.extinction;
@@ -142,16 +158,16 @@ HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light&
   Real length;
   const Real3 way = toward_light(light, place, length);
   for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
-    const std::uint32_t index = panels.indices()[n];
-    const GaussianDensity& g = a.gaussians[index & ~GaussianPanels::around_light];
-    const Real3 e = to_center(g, place);
+    const std::uint32_t word = panels.indices()[n], index = word & ~GaussianPanels::around_light;
+    const Real3 e = to_center(a.gaussians[index], place);
     Real foot, h;
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
-    const Mask met = h < g.reach;
+    const Mask met = h < a.gaussians[index].reach;
     if (!any_lane(met)) continue;
-    const Real far_end = (index & GaussianPanels::around_light) != 0 ? length - foot : Real(1e15);
-    const Real share = select(met, gaussian_depth(1 / g.radius, h, -foot, far_end), 0.0);
-    depth = fma(share, gaussian_whole(g.extinction, g.radius), depth);
+    const float inverse = terms[index].inverse;
+    const bool whole_way = word == index;  // the light stands beyond it
+    const Real share = whole_way ? gaussian_depth_beyond(inverse, h, -foot) : gaussian_depth(inverse, h, -foot, length - foot);
+    depth = fma(select(met, share, 0.0), terms[index].whole, depth);
   }
   return depth;
 }
@@ -260,8 +276,7 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   for (std::uint32_t n = p.passed.begin; n < p.passed.end; ++n) {
     const std::uint32_t met = panels.indices()[n];
-    const GaussianDensity& g = a.gaussians[panels.met()[met]];
-    front = fma(share_to(met, 1e15), gaussian_whole(g.extinction, g.radius), front);
+    front = fma(share_to(met, 1e15), terms[panels.met()[met]].whole, front);
   }
   const Real from = p.begin, to = min(p.end, end);
   const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
@@ -284,8 +299,9 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
 
 // One square of the tile, its upper left pixel at (x, y) in the tile.
 static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
-                              const GaussLegendre& rule, AlignedFloats& scratch, int x, int y) {
-  Scattering s(a, view, panels, rule, scratch.resize(panels.met().size() * floats_a_gaussian));
+                              const GaussLegendre& rule, std::span<const GaussianTerms> terms, AlignedFloats& scratch, int x,
+                              int y) {
+  Scattering s(a, view, panels, rule, terms, scratch.resize(panels.met().size() * floats_a_gaussian));
   const float* distance = view.plane(a.distance);
   for (int row = y; row < y + bin_side; ++row) {
     for (int column = x; column < x + bin_side; column += lanes) {
@@ -296,8 +312,7 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
 
       Real tau = optical_depth(length, a.extinction);
       for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
-        const GaussianDensity& g = a.gaussians[panels.met()[met]];
-        tau = fma(s.share_to(met, s.end), gaussian_whole(g.extinction, g.radius), tau);
+        tau = fma(s.share_to(met, s.end), terms[panels.met()[met]].whole, tau);
       }
       const Real source = opacity(tau);
       for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
@@ -319,12 +334,14 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd) {
   static_assert(tile_side % bin_side == 0);
   GaussianPanels panels;
   const GaussLegendre rule(a.samples);
+  std::vector<GaussianTerms> terms;
+  for (const GaussianDensity& g : a.gaussians) terms.push_back({1 / g.radius, f32::gaussian_whole(g.extinction, g.radius).v});
   AlignedFloats scratch;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, scratch, x, y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, scratch, x, y);
     }
   }
 }

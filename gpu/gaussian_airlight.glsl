@@ -96,8 +96,9 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
     float h;
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
     if (h >= emission_reach(g).w) continue;
-    float far_end = (index & around_light) != 0 ? length - foot : 1e15;
-    depth = fma(gaussian_depth(1.0 / radius, h, -foot, far_end), gaussian_whole(albedo_extinction_of(g).w, radius), depth);
+    bool whole_way = (index & around_light) == 0;  // the light stands beyond it
+    float share = whole_way ? gaussian_depth_beyond(1.0 / radius, h, -foot) : gaussian_depth(1.0 / radius, h, -foot, length - foot);
+    depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }
   return depth;
 }

@@ -11,5 +11,11 @@ FORMULA real gaussian_depth(real inverse_radius, real h, real from, real to) {
   return 0.5 * exp_(-min(y * y, 60.0)) * max(erf_(to * inverse_radius) - erf_(from * inverse_radius), 0.0);
 }
 
+// The same from `from` on, without an end.
+FORMULA real gaussian_depth_beyond(real inverse_radius, real h, real from) {
+  real y = h * inverse_radius;
+  return 0.5 * exp_(-min(y * y, 60.0)) * max(1.0 - erf_(from * inverse_radius), 0.0);
+}
+
 // Optical depth of the whole line through the centre, c radius sqrt(pi).
 FORMULA real gaussian_whole(real extinction, real radius) { return extinction * radius * 1.7724538509055160; }
