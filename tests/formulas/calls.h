@@ -56,6 +56,8 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 27) r[0] = atan_(a[0]);
   if (formula == 28) r[0] = gaussian_falloff(a[0], a[1]);
   if (formula == 29) r[0] = gaussian_depth(a[0], a[1], a[2], a[3]);
+  if (formula == 35) r[0] = gaussian_depth_beyond(a[0], a[1], a[2]);
+  if (formula == 36) r[0] = gaussian_whole(a[0], a[1]);
   if (formula == 33) r[0] = grid_bound(t, a[0], a[1], a[2], a[3], a[4], a[5]);
   if (formula == 30) r[0] = graded_step(a[0], a[1], a[2], a[3]);
   if (formula == 31) {

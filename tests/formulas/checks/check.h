@@ -46,13 +46,15 @@ enum class Formula : int {
   perpendicular = 25,   // d, p, least -> foot, h
   erf = 26,
   atan = 27,
-  gaussian_falloff = 28,    // inverse radius, squared distance
-  gaussian_depth = 29,      // inverse radius, h, from, to
-  graded_step = 30,         // k, n, length, extinction
-  step_of_light = 31,       // a, b, foot, h -> angle over h, mean place, mean distance
-  step_transmittance = 32,  // front, tau, share, beside
-  grid_bound = 33,          // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
-  step_phase = 34,          // ends from the foot, h
+  gaussian_falloff = 28,       // inverse radius, squared distance
+  gaussian_depth = 29,         // inverse radius, h, from, to
+  gaussian_depth_beyond = 35,  // inverse radius, h, from
+  gaussian_whole = 36,         // extinction, radius
+  graded_step = 30,            // k, n, length, extinction
+  step_of_light = 31,          // a, b, foot, h -> angle over h, mean place, mean distance
+  step_transmittance = 32,     // front, tau, share, beside
+  grid_bound = 33,             // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
+  step_phase = 34,             // ends from the foot, h
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 

@@ -52,6 +52,28 @@ Measured measure_depth(const Run& run) {
   return m;
 }
 
+// Without an end, and the whole line beside which it is told.
+Measured measure_beyond(const Run& run) {
+  Random random(stream + 2);
+  Columns in, lines;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = random.magnitude(1e-6, 1e6);
+    add_call(in, 1 / radius, random.number(0, 5) * radius, random.number(-6, 6) * radius);
+    add_call(lines, random.magnitude(1e-6, 1e6), radius);
+  }
+  const Columns found = run({Formula::gaussian_depth_beyond, in}), whole = run({Formula::gaussian_whole, lines});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double a = in[0][i], h = a * in[1][i];
+    const double truth = 0.5 * std::exp(-h * h) * std::erfc(a * in[2][i]);
+    const double line = lines[0][i] * lines[1][i] * std::sqrt(std::numbers::pi);
+    m.add(std::max(std::fabs(found[0][i] - truth), std::fabs(whole[0][i] / line - 1)), [&] {
+      return place({{"a", a}, {"h", in[1][i]}, {"from", in[2][i]}});
+    });
+  }
+  return m;
+}
+
 Measured measure_falloff(const Run& run) {
   Random random(stream + 1);
   Columns in;
@@ -74,6 +96,7 @@ Measured measure_falloff(const Run& run) {
 void add_gaussian_checks(std::vector<Check>& checks) {
   checks.push_back({"gaussian_table", measure_table, "gaussian_table", "gaussian_depth"});
   checks.push_back({"gaussian_depth", measure_depth, "exact_double", "gaussian_depth"});
+  checks.push_back({"gaussian_depth_beyond", measure_beyond, "exact_double", "gaussian_depth"});
   checks.push_back({"gaussian_falloff", measure_falloff, "exact_double", "gaussian_depth"});
 }
 
