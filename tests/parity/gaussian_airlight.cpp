@@ -49,12 +49,13 @@ Case scatter(Extent extent, const Parts& parts) {
                                .emission = {0.003F, 0.002F, 0.001F},
                                .samples = parts.samples,
                                .airlight = total,
-                               .per_light = parts.parts ? each : Image{},
+                               .per_light = parts.parts && !parts.dark ? each : Image{},
                                .transmittance = through,
                                .optical_depth = parts.parts ? depth : Image{}},
               ""}};
   c.results = {{"airlight", total}, {"transmittance", through}};
-  if (parts.parts) c.results.insert(c.results.end(), {{"per_light", each}, {"optical_depth", depth}});
+  if (parts.parts) c.results.emplace_back("optical_depth", depth);
+  if (parts.parts && !parts.dark) c.results.emplace_back("per_light", each);
   return c;
 }
 
