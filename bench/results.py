@@ -105,6 +105,10 @@ def instructions(out):
     return "\n\n".join([summary[0][len("# now: "):] + ".", table(head, rows), summary[-1][0].upper() + summary[-1][1:] + "."])
 
 
+def shadows(out):
+    return "\n".join(lines_of(os.path.join(out, "shadows.txt"))).strip()
+
+
 def choice(points, backend, error):
     """The fastest timed configuration of the backend within the error."""
     within = [p for p in points if p["backend"] == backend and p["ms"] and p["error"] is not None and p["error"] <= error]
@@ -154,7 +158,8 @@ def main():
     with open(RESULTS, encoding="utf-8") as file:
         text = file.read()
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
-              "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts")}
+              "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
+              "shadows": (shadows, "shadows.txt")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

@@ -45,6 +45,7 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_airlight_everywhere", 0.002,
      "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
      "airlight"},
+    {"brute_force", 0.002, "relative RMSE off edges of 512 equal steps: of first order where a shadow begins within a step"},
     {"promise", 2, "times the error asked for: what a choice by the stored models may miss it by"},
     {"truth_edge_share", 0.01,
      "share of pixels within 1/100 pixel of an edge or of a shadow's boundary (0.0002 to 0.008 measured): all that "
