@@ -84,7 +84,7 @@ struct GaussianPanels::Cone {
     const double w = view.extent.width, h = view.extent.height, t = static_cast<double>(view.tan_half_fov);
     glm::dvec3 corner[4];
     for (int k = 0; k < 4; ++k) {
-      const double across = x + k % 2 * bin_side, down = y + k / 2 * bin_side;
+      const double across = x + (k % 2 == 0 ? 0 : bin_side), down = y + (k < 2 ? 0 : bin_side);
       const double u = (2 * across / w - 1) * t * w / h, v = (1 - 2 * down / h) * t;
       corner[k] = glm::normalize(u * glm::dvec3(view.right) + v * glm::dvec3(view.up) + glm::dvec3(view.forward));
     }

@@ -112,15 +112,17 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
     if (seen) quads.push_back(quad);
   }
 
+  const auto tile_at = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  };
   for (const Span& s : spans) {
-    for (int column = s.from; column <= s.to; ++column) ++begin[static_cast<std::size_t>(s.row * columns + column) + 1];
+    for (int column = s.from; column <= s.to; ++column) ++begin[tile_at(column, s.row) + 1];
   }
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
   members.resize(begin.back());
   std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
   for (const Span& s : spans) {
-    for (int column = s.from; column <= s.to; ++column)
-      members[at[static_cast<std::size_t>(s.row * columns + column)]++] = s.quad;
+    for (int column = s.from; column <= s.to; ++column) members[at[tile_at(column, s.row)]++] = s.quad;
   }
 }
 
