@@ -21,7 +21,8 @@ struct LoopBudget {
   std::int64_t a_light;  // rounds for one place and one light
   int lights;            // how many lights fit, at least 1
 };
-// Throws MachineError where one light alone does not fit.
-LoopBudget loop_budget(const std::vector<GaussianDensity>&, const GridDensity&, int light_steps, LightDepth, std::size_t lights);
+// Of `most` rounds. Throws MachineError where one light alone does not fit.
+LoopBudget loop_budget(const std::vector<GaussianDensity>&, const GridDensity&, int light_steps, LightDepth, std::size_t lights,
+                       std::int64_t most = LoopBudget::most);
 
 }  // namespace airlight

@@ -92,8 +92,7 @@ class Marching : public testing::TestWithParam<TruthScene> {};
 // By default; and eight times the steps leave less than a third of the error: how it falls from one to the next depends on how
 // steps lie to lamps.
 TEST_P(Marching, ConvergesToTheTruth) {
-  Scene scene = GetParam().make();
-  for (Surface& s : scene.surfaces) s.casts_shadow = false;
+  const Scene scene = GetParam().make();
   const ReferenceFrame truth = truth_of(scene);
   RenderSettings settings;
   settings.technique = "marching";
