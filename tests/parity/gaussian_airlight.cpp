@@ -12,11 +12,11 @@ struct Parts {
   int samples = 4;
   Phase phase = {PhaseKind::henyey_greenstein, 0.4};
   float sky_distance = 100;
-  bool casters = false;
   bool parts = true;         // per light, optical depth
   bool lamp_within = false;  // a lamp at the centre of a Gaussian, others close to rays
   bool dark = false;         // no light
-};
+  bool casters = false;
+};  // namespace
 
 Case scatter(Extent extent, const Parts& parts) {
   Case c;
@@ -70,7 +70,7 @@ const NamedCase cases[] = {
     {"gaussian_airlight/casters", [](Extent e) { return scatter(e, {.samples = 3, .lamp_within = true, .casters = true}); }},
     {"gaussian_airlight/casters_in_fog",
      [](Extent e) {
-       return scatter(e, {.extinction = 0.06F, .gaussians = 4, .sky_distance = 1e30F, .casters = true, .parts = false});
+       return scatter(e, {.extinction = 0.06F, .gaussians = 4, .sky_distance = 1e30F, .parts = false, .casters = true});
      }},
     {"gaussian_airlight/sixteen_samples", [](Extent e) { return scatter(e, {.samples = 16, .phase = {}}); }},
     {"gaussian_airlight/many",

@@ -13,9 +13,9 @@ struct Parts {
   LightDepth light_depth = LightDepth::analytic;
   Phase phase = {PhaseKind::henyey_greenstein, 0.4};
   float sky_distance = 1e30F;
-  bool casters = false;
   bool parts = true;  // per light, optical depth
-};
+  bool casters = false;
+};  // namespace
 
 Case march(Extent extent, const Parts& parts) {
   Case c;
