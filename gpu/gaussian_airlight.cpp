@@ -68,13 +68,14 @@ class PanelLists {
     std::int64_t rounds = 0;
     for (const GaussianPanels::Panel& one : p.panels()) {
       const glm::ivec2 active = list(p, one.active, met_gaussian), passed = list(p, one.passed, met_gaussian);
-      std::int64_t of_a_node = 1 + active.y - active.x;
+      std::int64_t of_lights = 0;  // with shadow volumes a dispatch takes one of them
       int pieces = 1;
       bool sampled = active.x < active.y;
       for (std::size_t k = 0; k < a_.lights.size(); ++k) {
         const GaussianPanels::Shade& s = p.shades()[one.shades + k];
         sampled |= !GaussianPanels::closed_form(one, s);
-        of_a_node += 1 + s.shading.end - s.shading.begin;
+        const std::int64_t of_this_light = 1 + s.shading.end - s.shading.begin;
+        of_lights = a_.volumes ? std::max(of_lights, of_this_light) : of_lights + of_this_light;
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
@@ -82,7 +83,7 @@ class PanelLists {
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = sampled ? 1 + a_.samples * of_a_node : 0;
+      const std::int64_t a_piece = sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
@@ -181,14 +182,12 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
     each_part(true, [&] { r.each_pixel(program, a.airlight.extent, progress); });
     return;
   }
-  // A lit part is looked at as often as there are pieces that it touches: once more than it is cut.
   const auto lights = static_cast<int>(a.lights.size());
-  const std::int64_t fit = LoopBudget::most / 2 / (lists.rounds_of_a_piece() + 4);
   each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
     PanelLists::bind_again(r);
-    const auto step = static_cast<int>(std::clamp<std::int64_t>(fit, 1, run.most_lit));
+    const int step = LoopBudget::lit_parts(lists.rounds_of_a_piece(), run.most_lit);
     program.set("most_lit", step);
-    for (int first = 0; first < run.most_lit; first += step) {
+    for (int first = 0; first == 0 || first < run.most_lit; first += step) {
       program.set("first_lit", first);
       each_part(run.light + 1 == lights && first + step >= run.most_lit, [&] { dispatch_run(r, program, run); });
     }

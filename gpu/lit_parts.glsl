@@ -18,4 +18,5 @@ void main() {
   if (n > capacity) return;
   take_lit_parts(n);
   lists[list_at(capacity)].x = uint(found);
+  atomicMax(most_lit_parts, uint(found));
 }

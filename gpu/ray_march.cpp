@@ -57,12 +57,10 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
     } while (first_light < all_lights);
     return;
   }
-  // A lit part is looked at as often as there are steps that it touches: once more than it is cut.
-  const std::int64_t fit = most / (budget.a_light + 3);
   each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
-    const auto parts = static_cast<int>(std::clamp<std::int64_t>(fit, 1, run.most_lit));
+    const int parts = LoopBudget::lit_parts(budget.a_light, run.most_lit);
     program.set("most_lit", parts);
-    for (int first = 0; first < run.most_lit; first += parts) {
+    for (int first = 0; first == 0 || first < run.most_lit; first += parts) {
       program.set("first_lit", first);
       march(run.light, run.light + 1, run.light + 1 == all_lights && first + parts >= run.most_lit,
             [&] { dispatch_run(r, program, run); });

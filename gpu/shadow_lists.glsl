@@ -8,7 +8,10 @@ layout(std430, binding = 0) readonly buffer TileBlock { int tile_begin[]; };
 // Three vectors a plane: the values of u, v, e, k (common/plan/shadow_quads.h) at the tile's corner, what they gain a column, and a row.
 layout(std430, binding = 1) readonly buffer PlaneBlock { vec4 planes[]; };
 layout(std430, binding = 2) readonly buffer ChangeBlock { int changes[]; };
-layout(std430, binding = 4) buffer MostBlock { uint most_crossings; };
+layout(std430, binding = 4) buffer MostBlock {
+  uint most_crossings;  // where there are too many
+  uint most_lit_parts;  // of gpu/lit_parts.glsl
+};
 
 // The ray of this pixel.
 vec3 d;

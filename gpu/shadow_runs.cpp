@@ -106,24 +106,25 @@ class ShadowRuns {
     const bool any = !run.changes.empty();
     RunBlock block{{x, y, width, height}, side, light, static_cast<int>(held), capacity_, any ? 1 : 0, sky_distance_, {}};
     r_.block(run_binding, block);
-    const ShadowRun done{light, {width, height}, any ? capacity_ / 2 + 1 : 1};
+    ShadowRun done{light, {width, height}, 1};
     if (any) {
       r_.fill(own + begin_binding, std::as_bytes(std::span(run.begin)));
       r_.fill(own + planes_binding, std::as_bytes(std::span(run.planes)));
       r_.fill(own + changes_binding, std::as_bytes(std::span(run.changes)));
       r_.reserve(own + lists_binding, list_bytes(run.count));
-      const std::uint32_t none = 0;
-      r_.fill(own + most_binding, std::as_bytes(std::span(&none, 1)));
+      const std::uint32_t none[2] = {0, 0};
+      r_.fill(own + most_binding, std::as_bytes(std::span(none)));
       for (GLuint binding = begin_binding; binding <= most_binding; ++binding) r_.bind(binding, own + binding);
     }
     if (any || !draw_) dispatch_run(r_, program_, done);
     if (any) {
-      std::uint32_t most = 0;
-      r_.read_storage(own + most_binding, std::as_writable_bytes(std::span(&most, 1)));
-      if (most > static_cast<std::uint32_t>(capacity_)) {
-        while (static_cast<std::uint32_t>(capacity_) < most) capacity_ *= 2;
+      std::uint32_t most[2] = {0, 0};  // crossings, lit parts
+      r_.read_storage(own + most_binding, std::as_writable_bytes(std::span(most)));
+      if (most[0] > static_cast<std::uint32_t>(capacity_)) {
+        while (static_cast<std::uint32_t>(capacity_) < most[0]) capacity_ *= 2;
         return false;
       }
+      done.most_lit = static_cast<int>(most[1]);
     }
     if (draw_) draw_(done);
     return true;

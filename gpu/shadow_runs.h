@@ -13,7 +13,7 @@ namespace airlight {
 struct ShadowRun {
   int light;
   Extent extent;  // of its rectangle
-  int most_lit;   // lit parts that a ray may have
+  int most_lit;   // lit parts that a ray has
 };
 
 // Dispatches a shader of gpu/shadow_lists.glsl for each light and run of tiles, again with longer lists until no list is too
