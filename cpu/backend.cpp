@@ -74,8 +74,11 @@ struct CpuBackend::State {
   std::vector<Group> groups(std::span<const Step>, const std::vector<bool>& run) const;
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
   void prepare(std::size_t index, const SurfaceVisibility&);
-  void prepare(std::size_t index, const ShadowPlanes& a) {
-    shadow_rasterisers[index].prepare(a, buffer(a.volumes), simd, workers);
+  // ShadowPlanes, RayMarch, GaussianAirlight.
+  template <class Shadowed>
+  requires requires(const Shadowed& a) { a.volumes; }
+  void prepare(std::size_t index, const Shadowed& a) {
+    if (a.volumes) shadow_rasterisers[index].prepare(a.view, a.lights.size(), buffer(a.volumes), simd, workers);
   }
   template <class PixelStep>
   void prepare(std::size_t, const PixelStep&) {}
@@ -90,6 +93,13 @@ struct CpuBackend::State {
   template <class PixelStep>
   void run_tile(std::size_t, const PixelStep& a, const TileView& view, int) {
     airlight::run_tile(a, view, simd);
+  }
+  template <class Shadowed>
+  requires requires(const Shadowed& a) { a.volumes; }
+  void run_tile(std::size_t index, const Shadowed& a, const TileView& view, int worker) {
+    std::span<const LitParts> lit;
+    if (a.volumes) lit = shadow_rasterisers.at(index).lit_parts(a.view, a.distance, a.sky_distance, view, worker);
+    airlight::run_tile(a, view, simd, lit);
   }
 };
 

@@ -11,6 +11,7 @@
 //
 #include "cpu/pixel_rays.h"
 //
+#include "cpu/lit_rays.h"
 #include "cpu/medium.h"
 
 #ifndef AIRLIGHT_CPU_GAUSSIAN_TERMS
@@ -50,26 +51,33 @@ struct Scattering {
   bool one_albedo, emits;
   const float* tables;
   float* scratch;
+  LitRays lit;
 
   int i = 0;  // the first pixel
   Real3 d;
   Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                        const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats);
+                        const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
+                        const LitRays& lit_rays);
   HWY_INLINE void begin(int first, Real length);
   HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
   HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
   HWY_INLINE Real shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const;
   HWY_INLINE void add(std::size_t light, const Real* scattered);
+  HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
+  HWY_INLINE void glow(Real t, Real weight, const Local& here);
   HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE void sample_lit(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE Real closed_form(const Light& light, Real from, Real to) const;
   HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
   HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
   HWY_INLINE void panel(const GaussianPanels::Panel& p);
 };
 
 HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                                  const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats)
+                                  const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
+                                  const LitRays& lit_rays)
     : a(algorithm),
       view(tile_view),
       panels(square),
@@ -79,7 +87,8 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
-      scratch(floats) {
+      scratch(floats),
+      lit(lit_rays) {
   for (const std::uint32_t k : panels.met()) {
     one_albedo = one_albedo && (a.gaussians[k].albedo == a.albedo || !(a.extinction > 0));
     one_albedo = one_albedo && a.gaussians[k].albedo == a.gaussians[panels.met()[0]].albedo;
@@ -94,6 +103,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   front = 0.0;
   for (Real& s : sum) s = 0.0;
   most = bound.of(a, d);
+  if (lit) lit.begin(i);
   float* floats = scratch;
   for (const std::uint32_t k : panels.met()) {
     const GaussianDensity& g = a.gaussians[k];
@@ -181,57 +191,101 @@ HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
   }
 }
 
+// What light k adds at a node of this weight.
+HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::size_t k, Real t, Real weight, const Local& here) {
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  const Light& light = a.lights[k];
+  Real phase, strength = weight, beside = shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+  if (light.directional) {
+    phase = phase_value(kind, g, -dot(real3(light.vector), d));
+  } else {
+    Real foot, h;
+    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    const Real past = t - foot, squared = fma(past, past, h * h), r = sqrt(squared);
+    phase = phase_value(kind, g, -past / r);
+    strength = weight / squared;
+    beside = fma(r, a.extinction, beside);
+  }
+  const Real once = phase * strength * transmittance(fma(t, a.extinction, here.depth) + beside);
+  Real scattered[3];
+  for (int c = 0; c < 3; ++c) scattered[c] = here.scattering[c] * once * light.power[c];
+  add(k, scattered);
+}
+
+HWY_INLINE void Scattering::glow(Real t, Real weight, const Local& here) {
+  const Real seen = weight * transmittance(fma(t, a.extinction, here.depth));
+  for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
+}
+
 // From `from` to `to` by the nodes; nothing where to <= from.
 HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
   const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
-  const int kind = static_cast<int>(a.phase.kind);
-  const auto g = static_cast<float>(a.phase.g);
   for (std::size_t n = 0; n < rule.node.size(); ++n) {
     const Real t = fma(half, rule.node[n], middle), weight = half * rule.weight[n];
     const Local here = local(p, t);
-    const Real depth = fma(t, a.extinction, here.depth);
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
-      if (GaussianPanels::closed_form(p, shade)) continue;
-      const Light& light = a.lights[k];
-      Real phase, strength = weight, beside = shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
-      if (light.directional) {
-        phase = phase_value(kind, g, -dot(real3(light.vector), d));
-      } else {
-        Real foot, h;
-        perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-        const Real past = t - foot, squared = fma(past, past, h * h), r = sqrt(squared);
-        phase = phase_value(kind, g, -past / r);
-        strength = weight / squared;
-        beside = fma(r, a.extinction, beside);
-      }
-      const Real once = phase * strength * transmittance(depth + beside);
-      Real scattered[3];
-      for (int c = 0; c < 3; ++c) scattered[c] = here.scattering[c] * once * light.power[c];
-      add(k, scattered);
+      if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
     }
-    if (emits && p.active.begin < p.active.end) {
-      const Real seen = weight * transmittance(depth);
-      for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
-    }
+    if (emits && p.active.begin < p.active.end) glow(t, weight, here);
   }
+}
+
+// The same where lights reach only parts of rays: each part has nodes of its own. A light that reaches all or nothing between the
+// ends takes those of the whole.
+HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from, Real to) {
+  Local whole[GaussianAirlight::most_samples];
+  bool known = false;
+  const auto nodes = [&](Real x0, Real x1, const Local* held, auto&& use) HWY_ATTR {
+    const Real half = max(x1 - x0, 0.0) * 0.5, middle = (x0 + x1) * 0.5;
+    for (std::size_t n = 0; n < rule.node.size(); ++n) {
+      const Real t = fma(half, rule.node[n], middle);
+      use(n, t, half * rule.weight[n], held ? held[n] : local(p, t));
+    }
+  };
+  const auto know = [&]() HWY_ATTR {
+    if (!known) nodes(from, to, nullptr, [&](std::size_t n, Real, Real, const Local& here) HWY_ATTR { whole[n] = here; });
+    known = true;
+  };
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
+    if (GaussianPanels::closed_form(p, shade)) continue;
+    lit.each(k, from, to, [&](Real x0, Real x1) HWY_ATTR {
+      const Mask there = x0 < x1;
+      const bool all = !any_lane(there && (from < x0 || x1 < to));
+      if (all) know();
+      nodes(all ? from : x0, all ? to : x1, all ? whole : nullptr,
+            [&](std::size_t, Real t, Real weight, const Local& here)
+                HWY_ATTR { scatter(shade, k, t, select(there, weight, 0.0), here); });
+    });
+  }
+  if (!emits || p.active.begin == p.active.end) return;
+  know();
+  nodes(from, to, whole, [&](std::size_t, Real t, Real weight, const Local& here) HWY_ATTR { glow(t, weight, here); });
+}
+
+// Per unit of power and albedo, where only the homogeneous part is.
+HWY_INLINE Real Scattering::closed_form(const Light& light, Real from, Real to) const {
+  const int kind = static_cast<int>(a.phase.kind);
+  const auto g = static_cast<float>(a.phase.g);
+  if (light.directional) return directional_airlight(kind, g, a.extinction, -dot(real3(light.vector), d), from, to);
+  Real foot, h;
+  perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+  return point_airlight(tables, kind, g, a.extinction, foot, h, from, to);
 }
 
 // Where only the homogeneous part is.
 HWY_INLINE void Scattering::closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going) {
   const Real through = select(going, transmittance(front), 0.0);
-  const int kind = static_cast<int>(a.phase.kind);
-  const auto g = static_cast<float>(a.phase.g);
   for (std::size_t k = 0; k < a.lights.size() && a.extinction > 0; ++k) {
     if (!GaussianPanels::closed_form(p, panels.shades()[p.shades + k])) continue;
     const Light& light = a.lights[k];
-    Real once;
-    if (light.directional) {
-      once = directional_airlight(kind, g, a.extinction, -dot(real3(light.vector), d), from, to);
+    Real once = 0.0;
+    if (!lit) {
+      once = closed_form(light, from, to);
     } else {
-      Real foot, h;
-      perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-      once = point_airlight(tables, kind, g, a.extinction, foot, h, from, to);
+      lit.each(k, from, to, [&](Real x0, Real x1) HWY_ATTR { once += select(x0 < x1, closed_form(light, x0, x1), 0.0); });
     }
     Real scattered[3];
     for (int c = 0; c < 3; ++c) scattered[c] = once * through * (light.power[c] * a.albedo[c]);
@@ -291,7 +345,12 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   Real cut[GaussianPanels::most_cuts + 2];
   const int n = cuts(p, from, last, cut);
   for (int k = 0; k + 1 < n; ++k) {
-    if (any_lane(cut[k] < cut[k + 1])) sample(p, cut[k], cut[k + 1]);
+    if (!any_lane(cut[k] < cut[k + 1])) continue;
+    if (!lit) {
+      sample(p, cut[k], cut[k + 1]);
+    } else {
+      sample_lit(p, cut[k], cut[k + 1]);
+    }
   }
 }
 
@@ -299,9 +358,9 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
 
 // One square of the tile, its upper left pixel at (x, y) in the tile.
 static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
-                              const GaussLegendre& rule, std::span<const GaussianTerms> terms, AlignedFloats& scratch, int x,
-                              int y) {
-  Scattering s(a, view, panels, rule, terms, scratch.resize(panels.met().size() * floats_a_gaussian));
+                              const GaussLegendre& rule, std::span<const GaussianTerms> terms, std::span<const LitParts> lit,
+                              AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
+  Scattering s(a, view, panels, rule, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
   const float* distance = view.plane(a.distance);
   for (int row = y; row < y + bin_side; ++row) {
     for (int column = x; column < x + bin_side; column += lanes) {
@@ -330,18 +389,19 @@ namespace airlight {
 
 HWY_EXPORT(gaussian_airlight);
 
-void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd) {
+void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
   static_assert(tile_side % bin_side == 0);
   GaussianPanels panels;
   const GaussLegendre rule(a.samples);
   std::vector<GaussianTerms> terms;
   for (const GaussianDensity& g : a.gaussians) terms.push_back({1 / g.radius, f32::gaussian_whole(g.extinction, g.radius).v});
   AlignedFloats scratch;
+  LitScratch lit_scratch;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, scratch, x, y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, lit, scratch, lit_scratch, x, y);
     }
   }
 }

@@ -1,7 +1,10 @@
 // Entry points of the per-pixel kernels: one tile, on the asked SIMD target. Each stands in the file of its algorithm's name.
 #pragma once
 
+#include <span>
+
 #include "common/algorithms/algorithm.h"
+#include "cpu/shadow_parts.h"
 #include "cpu/targets.h"
 #include "cpu/tile.h"
 
@@ -11,8 +14,9 @@ void run_tile(const ViewTransmittance&, const TileView&, Simd);
 void run_tile(const SurfaceAirlight&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
-void run_tile(const RayMarch&, const TileView&, Simd);
-void run_tile(const GaussianAirlight&, const TileView&, Simd);
+// `lit`: the lit parts of each light, or nothing where every light reaches everything.
+void run_tile(const RayMarch&, const TileView&, Simd, std::span<const LitParts> lit);
+void run_tile(const GaussianAirlight&, const TileView&, Simd, std::span<const LitParts> lit);
 void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 

@@ -27,6 +27,7 @@ static void light_march(const LightMarch& a, const TileView& view) {
         const Real3 way = toward_light(a.lights[k], p, length);
         through = select(hit, transmittance(depth_of_way(medium, p, way, length, hit)), 1.0);
       }
+      if (a.lit) through *= load(view.plane(a.lit, 0, static_cast<int>(k)) + i);
       store(through, view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);
     }
   }

@@ -10,6 +10,7 @@
 //
 #include "cpu/pixel_rays.h"
 //
+#include "cpu/lit_rays.h"
 #include "cpu/medium.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,6 +28,7 @@ struct March {
   const RayMarch& a;
   const TileView& view;
   MediumLookup medium;
+  LitRays lit;
   RadianceBound bound;
   bool one_albedo, emits;
 
@@ -37,18 +39,19 @@ struct March {
   Mask going;
   Real sum[3];
 
-  HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view);
+  HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays);
   HWY_INLINE void begin(int first, const Real3& direction);
   HWY_INLINE Mask ended() const;
   HWY_INLINE void stretch(Real begin, Real end, bool all);
   HWY_INLINE Local local(const Real3& p, bool all) const;
-  HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real tau, const Local& here);
+  HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
 };
 
-HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view)
+HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays)
     : a(algorithm),
       view(tile_view),
       medium(algorithm, tile_view),
+      lit(lit_rays),
       bound(algorithm),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)) {
@@ -66,6 +69,7 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   going = Real(0.0) < Real(1.0);
   for (Real& s : sum) s = 0.0;
   most = bound.of(a, d);
+  if (lit) lit.begin(i);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
@@ -100,8 +104,9 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
   return here;
 }
 
-// Light number k, scattered in the step [from, to] of optical depth tau.
-HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, const Local& here) {
+// Light number k, scattered in the step [from, to] or in a lit part of one: of optical depth tau, behind `before_it`. Nothing
+// where to <= from.
+HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here) {
   const Light& light = a.lights[k];
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
@@ -128,9 +133,10 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real tau, co
     beside += depth_of_way(medium, p, way, length, going);
   }
   const Real share = (at - from) / max(to - from, 1e-30);
-  const Real once = phase * weight * step_transmittance(front, tau, share, beside);
+  const Mask scatters = lit ? going && (from < to) : going;
+  const Real once = phase * weight * step_transmittance(before_it, tau, share, beside);
   for (int c = 0; c < 3; ++c) {
-    const Real light_of_step = select(going, here.scattering[c] * once * light.power[c], 0.0);
+    const Real light_of_step = select(scatters, here.scattering[c] * once * light.power[c], 0.0);
     sum[c] += light_of_step;
     if (!a.per_light) continue;
     float* plane = view.plane(a.per_light, c, static_cast<int>(k)) + i;
@@ -160,7 +166,16 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
     const Local here = local(along({0.0, 0.0, 0.0}, d, (from + to) * 0.5), all);
     const Real tau = here.extinction * size;
     if (any_lane(going && (here.extinction > 0.0))) {
-      for (std::size_t l = 0; l < a.lights.size(); ++l) add_light(l, from, to, tau, here);
+      for (std::size_t l = 0; l < a.lights.size(); ++l) {
+        if (!lit) {
+          add_light(l, from, to, front, tau, here);
+        } else {
+          lit.each(l, from, to, [&](Real begin_lit, Real end_lit) HWY_ATTR {
+            add_light(l, begin_lit, end_lit, fma(here.extinction, begin_lit - from, front),
+                      here.extinction * (end_lit - begin_lit), here);
+          });
+        }
+      }
     }
     if (emits) {
       const Real seen = select(going, size * mean_transmittance(tau) * transmittance(front), 0.0);
@@ -175,9 +190,9 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
 
 }  // namespace
 
-static void ray_march(const RayMarch& a, const TileView& view) {
+static void ray_march(const RayMarch& a, const TileView& view, std::span<const LitParts> lit, LitScratch& scratch) {
   const float* distance = view.plane(a.distance);
-  March march(a, view);
+  March march(a, view, LitRays(lit, scratch));
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
     march.begin(i, pixel_rays(a.view, view.tile, i));
@@ -216,7 +231,10 @@ namespace airlight {
 
 HWY_EXPORT(ray_march);
 
-void run_tile(const RayMarch& a, const TileView& view, Simd simd) { entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view); }
+void run_tile(const RayMarch& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
+  LitScratch scratch;
+  entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view, lit, scratch);
+}
 
 }  // namespace airlight
 #endif

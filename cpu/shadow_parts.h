@@ -34,6 +34,20 @@ struct Crossings {
   AlignedFloats rays;  // per pixel: length of the ray [m]; length over z; 1/z of its end
 };
 
+// The lit parts of one light over a tile.
+struct LitParts {
+  enum class Rays : int { lit, dark, mixed };  // mixed: some ray crosses a plane, and the lists tell
+  Rays rays = Rays::lit;
+  std::vector<float> from, to;  // [m], as in Crossings
+  std::vector<std::uint32_t> first_part;
+};
+
+// The lit parts of a vector of rays, as cpu/lit_rays.h lays them out.
+struct LitScratch {
+  AlignedFloats floats;
+  std::vector<std::uint32_t> first, at;
+};
+
 // From the order of planes to pixel by pixel; in each it stays.
 void by_pixel(Crossings&);
 

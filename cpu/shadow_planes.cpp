@@ -98,22 +98,21 @@ void cross(const ShadowQuad& q, const Tile& tile, const float* ends, float least
 }  // namespace
 
 // Lengths of the rays and the 1/z at which they end. Returns the least of these.
-static float shadow_rays(const ShadowPlanes& a, const TileView& view, Crossings& c) {
-  const float* distance = view.plane(a.distance);
+static float shadow_rays(const View& camera, const float* distance, float sky_distance, const Tile& tile, Crossings& c) {
   float* rays = c.rays.resize(3 * tile_pixels + tile_side);
   Real least = 1e30F;
   for (int i = 0; i < tile_pixels; i += lanes) {
-    const Real length = ray_length(load(distance + i), a.sky_distance);
-    const Real3 d = pixel_rays(a.view, view.tile, i);
-    const Real slant = 1.0 / dot(d, real3(a.view.forward));  // length over z
+    const Real length = ray_length(load(distance + i), sky_distance);
+    const Real3 d = pixel_rays(camera, tile, i);
+    const Real slant = 1.0 / dot(d, real3(camera.forward));  // length over z
     const Real end = slant / max(length, 1e-30);
     store(length, rays + i);
     store(slant, rays + tile_pixels + i);
     store(end, rays + 2 * tile_pixels + i);
     // What lies outside the image is not read; it may be anything.
-    const int x = view.tile.x + i % tile_side, y = view.tile.y + i / tile_side;
-    const Mask inside = (first_lanes() + static_cast<float>(x) < static_cast<float>(a.view.extent.width)) &&
-                        (Real(static_cast<float>(y)) < static_cast<float>(a.view.extent.height));
+    const int x = tile.x + i % tile_side, y = tile.y + i / tile_side;
+    const Mask inside = (first_lanes() + static_cast<float>(x) < static_cast<float>(camera.extent.width)) &&
+                        (Real(static_cast<float>(y)) < static_cast<float>(camera.extent.height));
     least = select(inside, min(least, end), least);
   }
   HWY_ALIGN float lane[lanes];
@@ -205,27 +204,32 @@ void fill(float* values, float v) { std::fill(values, values + tile_pixels, v); 
 }  // namespace
 
 struct ShadowRasteriser::State {
+  struct Worker {
+    Crossings crossings;
+    std::vector<LitParts> lit;
+  };
   std::vector<LightVolumes> lights;
-  mutable std::vector<Crossings> workers;
+  mutable std::vector<Worker> workers;
   Simd simd = Simd::scalar;
 };
 
 ShadowRasteriser::ShadowRasteriser() : state_(std::make_unique<State>()) {}
 ShadowRasteriser::~ShadowRasteriser() = default;
 
-void ShadowRasteriser::prepare(const ShadowPlanes& a, std::span<const std::byte> bytes, Simd simd, Workers& workers) {
+void ShadowRasteriser::prepare(const View& view, std::size_t lights, std::span<const std::byte> bytes, Simd simd,
+                               Workers& workers) {
   State& s = *state_;
   s.simd = simd;
   s.workers.resize(static_cast<std::size_t>(workers.threads()));
-  const ShadowVolumesView volumes(bytes, a.lights.size());
-  s.lights.resize(a.lights.size());
+  const ShadowVolumesView volumes(bytes, lights);
+  s.lights.resize(lights);
   struct Job {
     LightVolumes* light;
     std::size_t chunk, first;
     const ShadowLight* from;
   };
   std::vector<Job> jobs;
-  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+  for (std::size_t i = 0; i < lights; ++i) {
     LightVolumes& light = s.lights[i];
     const std::size_t edges = volumes.of(volumes.lights[i]).size();
     light.covering = volumes.lights[i].covering;
@@ -233,7 +237,7 @@ void ShadowRasteriser::prepare(const ShadowPlanes& a, std::span<const std::byte>
     if (light.chunks.size() < light.used) light.chunks.resize(light.used);
     for (std::size_t k = 0; k < light.used; ++k) jobs.push_back({&light, k, k * chunk_size, &volumes.lights[i]});
   }
-  const ScreenRays rays(a.view);
+  const ScreenRays rays(view);
   workers.each(static_cast<int>(jobs.size()), [&](int j, int) {
     const Job& job = jobs[static_cast<std::size_t>(j)];
     const std::span<const ShadowEdge> all = volumes.of(*job.from);
@@ -244,8 +248,9 @@ void ShadowRasteriser::prepare(const ShadowPlanes& a, std::span<const std::byte>
 
 void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int worker) const {
   const State& s = *state_;
-  Crossings& c = s.workers[static_cast<std::size_t>(worker)];
-  const float least_end = entry(HWY_DISPATCH_TABLE(shadow_rays), s.simd)(a, view, c);
+  Crossings& c = s.workers[static_cast<std::size_t>(worker)].crossings;
+  const float least_end =
+      entry(HWY_DISPATCH_TABLE(shadow_rays), s.simd)(a.view, view.plane(a.distance), a.sky_distance, view.tile, c);
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     const LightVolumes& light = s.lights[i];
     float* lit = view.plane(a.light_transmittance, 0, static_cast<int>(i));
@@ -267,6 +272,33 @@ void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int
     }
     if (scattered) entry(HWY_DISPATCH_TABLE(shadow_scatter), s.simd)(a, view, i, false, c);
   }
+}
+
+std::span<const LitParts> ShadowRasteriser::lit_parts(const View& camera, const Image& distance, float sky_distance,
+                                                      const TileView& view, int worker) const {
+  const State& s = *state_;
+  Crossings& c = s.workers[static_cast<std::size_t>(worker)].crossings;
+  std::vector<LitParts>& lit = s.workers[static_cast<std::size_t>(worker)].lit;
+  lit.resize(s.lights.size());
+  const float least_end =
+      entry(HWY_DISPATCH_TABLE(shadow_rays), s.simd)(camera, view.plane(distance), sky_distance, view.tile, c);
+  bool any_dark = false;
+  for (std::size_t i = 0; i < s.lights.size(); ++i) {
+    const LightVolumes& light = s.lights[i];
+    entry(HWY_DISPATCH_TABLE(shadow_cross), s.simd)(light.all(), view.tile, least_end, c);
+    lit[i].rays = light.covering > 0 ? LitParts::Rays::dark : LitParts::Rays::lit;
+    if (c.count > 0) {
+      by_pixel(c);
+      sort_by_distance(c);
+      find_parts(c, light.covering, nullptr);
+      lit[i].rays = LitParts::Rays::mixed;
+      lit[i].from.swap(c.from);
+      lit[i].to.swap(c.to);
+      lit[i].first_part.swap(c.first_part);
+    }
+    any_dark |= lit[i].rays != LitParts::Rays::lit;
+  }
+  return any_dark ? std::span<const LitParts>(lit) : std::span<const LitParts>();
 }
 
 }  // namespace airlight

@@ -30,11 +30,13 @@ class ShadowRasteriser {
   ShadowRasteriser();
   ~ShadowRasteriser();
 
-  // `volumes` must stay valid until the last run_tile().
-  void prepare(const ShadowPlanes&, std::span<const std::byte> volumes, Simd, Workers&);
+  // `volumes` must stay valid until the last tile.
+  void prepare(const View&, std::size_t lights, std::span<const std::byte> volumes, Simd, Workers&);
 
-  // Safe from many threads at once, each with its own worker.
+  // Both are safe from many threads at once, each with its own worker.
   void run_tile(const ShadowPlanes&, const TileView&, int worker) const;
+  // The lit parts of each light over the tile; none where every light reaches everything. Valid until the worker's next call.
+  std::span<const LitParts> lit_parts(const View&, const Image& distance, float sky_distance, const TileView&, int worker) const;
 
  private:
   struct State;

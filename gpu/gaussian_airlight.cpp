@@ -5,18 +5,21 @@
 #include "common/error.h"
 #include "common/plan/gaussian_panels.h"
 #include "gpu/medium.h"
+#include "gpu/shadow_runs.h"
 
 namespace airlight {
 
 namespace {
 
-constexpr GLuint squares_binding = 0, parts_binding = 1, panels_binding = 2, shades_binding = 3, indices_binding = 4;
+constexpr GLuint squares_binding = 0, panels_binding = 1, shades_binding = 2, indices_binding = 4;  // 3: gpu/shadow_run.glsl
 constexpr int all_pieces = GaussianPanels::most_cuts + 2;
 
 // The panels of all squares, as the shader reads them; and what it may do in one dispatch (LoopBudget).
 class PanelLists {
  public:
-  explicit PanelLists(const GaussianAirlight& a) : a_(a), columns_((a.view.extent.width + bin_side - 1) / bin_side) {
+  // most_rounds: of loops in a dispatch, beside those for lit parts.
+  PanelLists(const GaussianAirlight& a, std::int64_t most_rounds)
+      : a_(a), most_rounds_(most_rounds), columns_((a.view.extent.width + bin_side - 1) / bin_side) {
     const int rows = (a.view.extent.height + bin_side - 1) / bin_side;
     GaussianPanels panels;
     for (int row = 0; row < rows; ++row) {
@@ -25,11 +28,15 @@ class PanelLists {
         add(panels);
       }
     }
+    // Parts come behind the squares.
+    const auto count = static_cast<int>(squares_.size());
+    for (glm::ivec4& square : squares_) square.x += count, square.y += count;
+    squares_.insert(squares_.end(), parts_.begin(), parts_.end());
   }
 
   void bind(StepRunner& r) {
     // A buffer of no bytes cannot be bound.
-    for (std::vector<glm::ivec4>* list : {&parts_, &panels_, &shades_}) {
+    for (std::vector<glm::ivec4>* list : {&panels_, &shades_}) {
       if (list->empty()) list->emplace_back(0);
     }
     if (indices_.empty()) indices_.push_back(0);
@@ -41,12 +48,16 @@ class PanelLists {
       r.storage(binding, bytes);
     };
     bound(squares_binding, std::as_bytes(std::span(squares_)));
-    bound(parts_binding, std::as_bytes(std::span(parts_)));
     bound(panels_binding, std::as_bytes(std::span(panels_)));
     bound(shades_binding, std::as_bytes(std::span(shades_)));
     bound(indices_binding, std::as_bytes(std::span(indices_)));
   }
+  // After others have had these bindings.
+  static void bind_again(StepRunner& r) {
+    for (const GLuint binding : {squares_binding, panels_binding, shades_binding, indices_binding}) r.bind(binding, binding);
+  }
   int columns() const { return columns_; }
+  std::int64_t rounds_of_a_piece() const { return rounds_of_a_piece_; }
   int dispatches() const { return dispatches_; }
 
  private:
@@ -57,13 +68,14 @@ class PanelLists {
     std::int64_t rounds = 0;
     for (const GaussianPanels::Panel& one : p.panels()) {
       const glm::ivec2 active = list(p, one.active, met_gaussian), passed = list(p, one.passed, met_gaussian);
-      std::int64_t of_a_node = 1 + active.y - active.x;
+      std::int64_t of_lights = 0;  // with shadow volumes a dispatch takes one of them
       int pieces = 1;
       bool sampled = active.x < active.y;
       for (std::size_t k = 0; k < a_.lights.size(); ++k) {
         const GaussianPanels::Shade& s = p.shades()[one.shades + k];
         sampled |= !GaussianPanels::closed_form(one, s);
-        of_a_node += 1 + s.shading.end - s.shading.begin;
+        const std::int64_t of_this_light = 1 + s.shading.end - s.shading.begin;
+        of_lights = a_.volumes ? std::max(of_lights, of_this_light) : of_lights + of_this_light;
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
@@ -71,7 +83,8 @@ class PanelLists {
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = sampled ? 1 + a_.samples * of_a_node : 0;
+      const std::int64_t a_piece = sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
+      rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
     for (const GaussianPanels::Shade& s : p.shades()) {
@@ -94,7 +107,7 @@ class PanelLists {
   // Adds a panel to the part before it, or as one or more of its own. Returns the rounds of the last part.
   std::int64_t split(int panel, int pieces, std::int64_t once, std::int64_t a_piece, std::int64_t rounds, bool first) {
     const auto outside = static_cast<std::int64_t>(a_.gaussians.size() + 2 * a_.lights.size()) * 2;  // of panels
-    const std::int64_t room = LoopBudget::most - outside, all = once + pieces * a_piece;
+    const std::int64_t room = most_rounds_ - outside, all = once + pieces * a_piece;
     if (!first && rounds + all <= room && parts_.back().w == all_pieces && parts_.back().z == 0) {
       parts_.back().y = panel + 1;
       return rounds + all;
@@ -115,6 +128,7 @@ class PanelLists {
   }
 
   const GaussianAirlight& a_;
+  std::int64_t most_rounds_, rounds_of_a_piece_ = 1;
   int columns_, dispatches_ = 1;
   std::vector<glm::ivec4> squares_, parts_, panels_, shades_;
   std::vector<int> indices_;
@@ -134,6 +148,8 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
   if (a.extinction > 0) defines.push_back("WITH_TABLES");
+  const bool shadowed = a.volumes && !a.lights.empty();
+  if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/gaussian_airlight.glsl", defines);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
@@ -142,7 +158,7 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   r.write(3, a.optical_depth);
   if (a.tables) r.storage(tables_binding, a.tables);
   r.view(a.view);
-  PanelLists lists(a);
+  PanelLists lists(a, shadowed ? LoopBudget::most / 2 : LoopBudget::most);
   lists.bind(r);
   Knobs knobs{{a.albedo, a.extinction},
               {a.ambient, a.sky_distance},
@@ -155,11 +171,27 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   const GaussLegendre rule(a.samples);
   for (std::size_t n = 0; n < rule.node.size(); ++n) knobs.rule[n] = {rule.node[n], rule.weight[n], 0, 0};
   r.block(knobs_binding, knobs);
-  for (int part = 0; part < lists.dispatches(); ++part) {
-    program.set("part", part);
-    program.set("last_part", part + 1 == lists.dispatches() ? 1 : 0);
-    r.each_pixel(program, a.airlight.extent, progress);
+  const auto each_part = [&](bool last, auto&& dispatch) {
+    for (int part = 0; part < lists.dispatches(); ++part) {
+      program.set("part", part);
+      program.set("last_part", last && part + 1 == lists.dispatches() ? 1 : 0);
+      dispatch();
+    }
+  };
+  if (!shadowed) {
+    each_part(true, [&] { r.each_pixel(program, a.airlight.extent, progress); });
+    return;
   }
+  const auto lights = static_cast<int>(a.lights.size());
+  each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
+    PanelLists::bind_again(r);
+    const int step = LoopBudget::lit_parts(lists.rounds_of_a_piece(), run.most_lit);
+    program.set("most_lit", step);
+    for (int first = 0; first == 0 || first < run.most_lit; first += step) {
+      program.set("first_lit", first);
+      each_part(run.light + 1 == lights && first + step >= run.most_lit, [&] { dispatch_run(r, program, run); });
+    }
+  });
 }
 
 }  // namespace airlight

@@ -1,6 +1,9 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/medium.glsl"
+#ifdef WITH_LIT
+#include "gpu/lit_rays.glsl"
+#endif
 
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 0, rgba32f) uniform image2DArray airlight_image;
@@ -19,17 +22,30 @@ layout(std140, binding = 2) uniform Knobs {
   vec4 rule[16];  // node, weight
 };
 
-// The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; what a dispatch does for
-// it: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and the levels; Gaussians.
+// The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
+// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and
+// the levels; Gaussians.
 layout(std430, binding = 0) readonly buffer SquareBlock { ivec4 squares[]; };
-layout(std430, binding = 1) readonly buffer PartBlock { ivec4 parts[]; };
-layout(std430, binding = 2) readonly buffer PanelBlock { ivec4 panels[]; };
-layout(std430, binding = 3) readonly buffer ShadeBlock { ivec4 shades[]; };
+layout(std430, binding = 1) readonly buffer PanelBlock { ivec4 panels[]; };
+layout(std430, binding = 2) readonly buffer ShadeBlock { ivec4 shades[]; };
 layout(std430, binding = 4) readonly buffer IndexBlock { int indices[]; };
 
-// Between dispatches the airlight image holds what is summed, and the optical depth of the Gaussians that are behind.
+// Between dispatches the airlight image holds what is summed, and the optical depth of the Gaussians that are behind. With lit parts the rays are
+// taken once for each light, and for as many of its parts as fit.
 uniform int part;
 uniform int last_part;
+
+#ifdef WITH_LIT
+int first_light() { return light; }
+int end_light() { return light + 1; }
+bool glows() { return light == 0 && first_lit == 0; }  // once is enough
+bool is_first_of_light() { return part == 0 && first_lit == 0; }
+#else
+int first_light() { return 0; }
+int end_light() { return light_count.x; }
+bool glows() { return true; }
+bool is_first_of_light() { return part == 0; }
+#endif
 
 const int most_cuts = 98;
 const int around_light = int(0x80000000u);
@@ -113,7 +129,8 @@ void add(int k, vec3 scattered) {
 
 bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.x == shade.y; }
 
-void take_samples(ivec2 meets, int first_shade, float from, float to) {
+// By the nodes: of the lights, and of what glows.
+void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
   for (int n = 0; n < samples; ++n) {
@@ -121,7 +138,7 @@ void take_samples(ivec2 meets, int first_shade, float from, float to) {
     float weight = width * rule[n].y;
     Local here = local_at(meets, t);
     float depth = fma(t, albedo_extinction.w, here.depth);
-    for (int k = 0; k < light_count.x; ++k) {
+    for (int k = first_light(); k < end_light() && lights; ++k) {
       ivec4 shade = shades[first_shade + k];
       if (closed_form(meets, shade)) continue;
       vec4 vector_radius = light_values[2 * k];
@@ -146,32 +163,48 @@ void take_samples(ivec2 meets, int first_shade, float from, float to) {
       }
       add(k, here.scattering * (phase * strength * transmittance(depth + beside)) * power_directional.xyz);
     }
-    if (meets.x < meets.y) sum += weight * transmittance(depth) * here.emission;
+    if (glow && meets.x < meets.y) sum += weight * transmittance(depth) * here.emission;
   }
 }
+
+#ifdef WITH_TABLES
+// Per unit of power and albedo, where only the homogeneous part is.
+float closed_form_of(int k, float from, float to) {
+  vec4 vector_radius = light_values[2 * k];
+  vec3 v = vector_radius.xyz;
+  float extinction = albedo_extinction.w;
+  if (light_values[2 * k + 1].w != 0.0) return directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), from, to);
+  float foot;
+  float h;
+  perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+  return point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, from, to);
+}
+#endif
 
 // Where only the homogeneous part is.
 void closed_forms(ivec2 meets, int first_shade, float from, float to) {
   float through = transmittance(front);
   float extinction = albedo_extinction.w;
 #ifdef WITH_TABLES
-  for (int k = 0; k < light_count.x; ++k) {
+  for (int k = first_light(); k < end_light(); ++k) {
     if (!closed_form(meets, shades[first_shade + k])) continue;
-    vec4 vector_radius = light_values[2 * k];
-    vec4 power_directional = light_values[2 * k + 1];
-    vec3 v = vector_radius.xyz;
-    float once;
-    if (power_directional.w != 0.0) {
-      once = directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), from, to);
-    } else {
-      float foot;
-      float h;
-      perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
-      once = point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, from, to);
+    float once = 0.0;
+#ifdef WITH_LIT
+    pass_lit(from);
+    for (int n = lit_at; n < lit_end; ++n) {
+      vec2 lit = lit_part(n);
+      if (lit.x >= to) break;
+      float begin_lit = max(lit.x, from);
+      float end_of_lit = min(lit.y, to);
+      if (begin_lit < end_of_lit) once += closed_form_of(k, begin_lit, end_of_lit);
     }
-    add(k, once * through * (power_directional.xyz * albedo_extinction.xyz));
+#else
+    once = closed_form_of(k, from, to);
+#endif
+    add(k, once * through * (light_values[2 * k + 1].xyz * albedo_extinction.xyz));
   }
 #endif
+  if (!glows()) return;
   float length = to - from;
   sum += through * transmittance(from * extinction) * attenuated_length(length, extinction, optical_depth(length, extinction)) * emission_g.xyz;
 }
@@ -214,6 +247,24 @@ void make_cuts(int first_shade, float panel_length, float from, float to) {
   }
 }
 
+#ifdef WITH_LIT
+// Each lit part of it has nodes of its own.
+void take_piece(ivec2 meets, int first_shade, float from, float to) {
+  if (glows()) take_samples(meets, first_shade, from, to, false, true);
+  if (closed_form(meets, shades[first_shade + light])) return;
+  pass_lit(from);
+  for (int n = lit_at; n < lit_end; ++n) {
+    vec2 lit = lit_part(n);
+    if (lit.x >= to) break;
+    float begin_lit = max(lit.x, from);
+    float end_of_lit = min(lit.y, to);
+    if (begin_lit < end_of_lit) take_samples(meets, first_shade, begin_lit, end_of_lit, true, false);
+  }
+}
+#else
+void take_piece(ivec2 meets, int first_shade, float from, float to) { take_samples(meets, first_shade, from, to, true, true); }
+#endif
+
 // Pieces first to last of a panel.
 void take_panel(int p, int first, int last) {
   ivec4 one = panels[2 * p];
@@ -233,31 +284,37 @@ void take_panel(int p, int first, int last) {
   if (two.w == 0) return;
   make_cuts(first_shade, panel_end - from, from, to);
   for (int k = first; k + 1 < cut_count && k < last; ++k) {
-    if (cut[k] < cut[k + 1]) take_samples(meets, first_shade, cut[k], cut[k + 1]);
+    if (cut[k] < cut[k + 1]) take_piece(meets, first_shade, cut[k], cut[k + 1]);
   }
 }
 
 void main() {
+#ifdef WITH_LIT
+  pixel = this_lit_pixel();
+  if (outside(pixel) || outside_run(in_run())) return;
+  begin_lit();
+#else
   pixel = this_pixel();
   if (outside(pixel)) return;
+#endif
   ivec3 at = ivec3(pixel, 0);
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
   end = min(length, 1e15);
   d = pixel_ray(pixel);
   ivec4 square = squares[pixel.x / bin_side + bin_columns * (pixel.y / bin_side)];
-  if (part > 0) {
+  if (part > 0 || !glows()) {
     vec4 held = imageLoad(airlight_image, at);
     sum = held.xyz;
-    front = held.w;
+    if (part > 0) front = held.w;
   }
 #ifdef WITH_PER_LIGHT
-  if (part == 0) {
-    for (int k = 0; k < light_count.x; ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
+  if (is_first_of_light()) {
+    for (int k = first_light(); k < end_light(); ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
   }
 #endif
   if (square.x + part < square.y) {
     most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
-    ivec4 mine = parts[square.x + part];
+    ivec4 mine = squares[square.x + part];
     for (int p = mine.x; p < mine.y; ++p) take_panel(p, mine.z, mine.w);
   }
   if (last_part == 0) {

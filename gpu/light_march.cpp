@@ -7,8 +7,10 @@ namespace airlight {
 void run(const LightMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
   defines.push_back(r.lights(a.lights));
+  if (a.lit) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/light_march.glsl", defines);
   r.read(0, a.distance);
+  if (a.lit) r.read(1, a.lit);
   r.write(0, a.light_transmittance);
   r.view(a.view);
   const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, a.lights.size());

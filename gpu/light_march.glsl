@@ -3,6 +3,9 @@
 #include "gpu/medium.glsl"
 
 layout(binding = 0) uniform sampler2DArray distance_image;
+#ifdef WITH_LIT
+layout(binding = 1) uniform sampler2DArray lit_image;
+#endif
 layout(binding = 0, r32f) uniform writeonly image2DArray light_transmittance_image;
 
 uniform int first_light;  // of this dispatch
@@ -20,6 +23,9 @@ void main() {
       vec3 way = toward_light(light_values[2 * k].xyz, light_values[2 * k + 1].w != 0.0, place, length);
       through = transmittance(depth_of_way(place, way, length));
     }
+#ifdef WITH_LIT
+    through *= texelFetch(lit_image, ivec3(p, k), 0).x;
+#endif
     imageStore(light_transmittance_image, ivec3(p, k), vec4(through));
   }
 }

@@ -52,16 +52,16 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
 }
 
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,
-                       LightDepth light_depth, std::size_t lights) {
+                       LightDepth light_depth, std::size_t lights, std::int64_t most) {
   const auto count = static_cast<std::int64_t>(gaussians.size()), n = static_cast<std::int64_t>(light_steps);
   LoopBudget budget{2 + count, 1};
   if (count > 0 && light_depth == LightDepth::march) budget.a_light += n * (1 + count);
   if (grid) budget.a_light += n + 3;
-  if (budget.a_light + count + 2 > LoopBudget::most) {
+  if (budget.a_light + count + 2 > most) {
     throw MachineError("OpenGL: " + std::to_string(light_steps) + " steps to a light through " + std::to_string(count) +
                        " Gaussians are more loops than a shader may run, expected fewer light_steps or shadow=analytic");
   }
-  const std::int64_t fit = (LoopBudget::most - count - 2) / budget.a_light;
+  const std::int64_t fit = (most - count - 2) / budget.a_light;
   budget.lights = static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(lights), 1, fit));
   return budget;
 }

@@ -2,6 +2,7 @@
 #include <glm/vec4.hpp>
 
 #include "gpu/medium.h"
+#include "gpu/shadow_runs.h"
 
 namespace airlight {
 
@@ -10,6 +11,8 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
+  const bool shadowed = a.volumes && !a.lights.empty();
+  if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/ray_march.glsl", defines);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
@@ -28,23 +31,41 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
                 {}};
   r.block(knobs_binding, knobs);
 
-  const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, a.lights.size());
-  const int all_steps = 3 * a.steps, all_lights = static_cast<int>(a.lights.size());
-  const std::int64_t a_step = 2 + static_cast<std::int64_t>(a.gaussians.size()) + budget.a_light * budget.lights;
-  const int steps = static_cast<int>(std::clamp<std::int64_t>(LoopBudget::most / a_step, 1, all_steps));
-  int first_light = 0;
-  do {
-    const int end_light = std::min(first_light + budget.lights, all_lights);
+  const auto all_lights = static_cast<int>(a.lights.size());
+  const std::int64_t most = shadowed ? LoopBudget::most / 2 : LoopBudget::most;
+  const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, shadowed ? 1 : a.lights.size(), most);
+  const std::int64_t a_step =
+      2 + static_cast<std::int64_t>(a.gaussians.size()) + (budget.a_light + (shadowed ? 1 : 0)) * budget.lights;
+  const int all_steps = 3 * a.steps;
+  const int steps = static_cast<int>(std::clamp<std::int64_t>(most / a_step, 1, all_steps));
+  const auto march = [&](int first_light, int end_light, bool last, auto&& dispatch) {
     program.set("first_light", first_light);
     program.set("end_light", end_light);
-    program.set("last_light", end_light == all_lights ? 1 : 0);
+    program.set("last_light", last ? 1 : 0);
     for (int first = 0; first < all_steps; first += steps) {
       program.set("first_step", first);
       program.set("end_step", std::min(first + steps, all_steps));
-      r.each_pixel(program, a.airlight.extent, progress);
+      dispatch();
     }
-    first_light = end_light;
-  } while (first_light < all_lights);
+  };
+  if (!shadowed) {
+    int first_light = 0;
+    do {
+      const int end_light = std::min(first_light + budget.lights, all_lights);
+      march(first_light, end_light, end_light == all_lights, [&] { r.each_pixel(program, a.airlight.extent, progress); });
+      first_light = end_light;
+    } while (first_light < all_lights);
+    return;
+  }
+  each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
+    const int parts = LoopBudget::lit_parts(budget.a_light, run.most_lit);
+    program.set("most_lit", parts);
+    for (int first = 0; first == 0 || first < run.most_lit; first += parts) {
+      program.set("first_lit", first);
+      march(run.light, run.light + 1, run.light + 1 == all_lights && first + parts >= run.most_lit,
+            [&] { dispatch_run(r, program, run); });
+    }
+  });
 }
 
 }  // namespace airlight

@@ -1,6 +1,9 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/medium.glsl"
+#ifdef WITH_LIT
+#include "gpu/lit_rays.glsl"
+#endif
 
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 0, rgba32f) uniform image2DArray airlight_image;
@@ -16,7 +19,7 @@ layout(std140, binding = 2) uniform Knobs {
   int steps;
 };
 
-// One dispatch takes some of the steps, counted over the three stretches of a ray, and some of the lights. Between dispatches the airlight image holds
+// One dispatch takes some of the steps, counted over the three stretches of a ray, and some of the lights; or of one light some lit parts. Between dispatches the airlight image holds
 // what is summed and the depth in front, the transmittance image that within Gaussians and grid.
 uniform int first_step;
 uniform int end_step;
@@ -29,6 +32,13 @@ const bool whole = true;  // it is wanted also behind where the ray ends
 #else
 const bool whole = false;
 #endif
+
+#ifdef WITH_LIT
+bool is_first_of_light() { return first_lit == 0; }
+#else
+bool is_first_of_light() { return true; }
+#endif
+bool is_first() { return first_light == 0 && is_first_of_light(); }
 
 // The ray on its way.
 ivec2 pixel;
@@ -67,8 +77,8 @@ Local local_at(vec3 p, bool all) {
   return here;
 }
 
-// Light number k, scattered in the step [from, to] of optical depth tau.
-void add_light(int k, float from, float to, float tau, Local here) {
+// Light number k, scattered in the step [from, to] or in a lit part of one: of optical depth tau, behind `before_it`.
+void add_light(int k, float from, float to, float before_it, float tau, Local here) {
   vec4 vector_radius = light_values[2 * k];
   vec4 power_directional = light_values[2 * k + 1];
   vec3 v = vector_radius.xyz;
@@ -99,12 +109,28 @@ void add_light(int k, float from, float to, float tau, Local here) {
   beside += depth_of_way(p, way, length);
 #endif
   float share = (at - from) / max(to - from, 1e-30);
-  float once = phase * weight * step_transmittance(front, tau, share, beside);
+  float once = phase * weight * step_transmittance(before_it, tau, share, beside);
   vec3 light_of_step = here.scattering * once * power_directional.xyz;
   sum += light_of_step;
 #ifdef WITH_PER_LIGHT
   ivec3 layer = ivec3(pixel, k);
   imageStore(per_light_image, layer, imageLoad(per_light_image, layer) + vec4(light_of_step, 0.0));
+#endif
+}
+
+void add_lights(float from, float to, float tau, Local here) {
+#ifdef WITH_LIT
+  pass_lit(from);
+  for (int n = lit_at; n < lit_end; ++n) {
+    vec2 lit = lit_part(n);
+    if (lit.x >= to) break;
+    float begin_lit = max(lit.x, from);
+    float end_of_lit = min(lit.y, to);
+    if (begin_lit < end_of_lit)
+      add_light(first_light, begin_lit, end_of_lit, fma(here.extinction, begin_lit - from, front), here.extinction * (end_of_lit - begin_lit), here);
+  }
+#else
+  for (int k = first_light; k < end_light; ++k) add_light(k, from, to, front, tau, here);
 #endif
 }
 
@@ -114,7 +140,7 @@ void stretch(int base, float begin, float end, bool all) {
   if (!marching) return;
   float extinction = albedo_extinction.w;
   if (!all && extinction <= 0.0) {  // nothing there but a glow
-    if (first_light == 0 && first_step <= base && base < end_step) sum += (end - begin) * transmittance(front) * emission_g.xyz;
+    if (is_first() && first_step <= base && base < end_step) sum += (end - begin) * transmittance(front) * emission_g.xyz;
     return;
   }
   float length = all ? end - begin : min(end - begin, deepest() / max(extinction, 1e-30));
@@ -132,10 +158,8 @@ void stretch(int base, float begin, float end, bool all) {
     Local here = local_at(d * ((from + to) * 0.5), all);
     float tau = here.extinction * size;
     if (going) {
-      if (here.extinction > 0.0) {
-        for (int l = first_light; l < end_light; ++l) add_light(l, from, to, tau, here);
-      }
-      if (first_light == 0) sum += size * mean_transmittance(tau) * transmittance(front) * here.emission;
+      if (here.extinction > 0.0) add_lights(from, to, tau, here);
+      if (is_first()) sum += size * mean_transmittance(tau) * transmittance(front) * here.emission;
     }
     front += tau;
     if (all) within += max(here.extinction - extinction, 0.0) * size;
@@ -144,20 +168,26 @@ void stretch(int base, float begin, float end, bool all) {
 }
 
 void main() {
+#ifdef WITH_LIT
+  pixel = this_lit_pixel();
+  if (outside(pixel) || outside_run(in_run())) return;
+  begin_lit();
+#else
   pixel = this_pixel();
   if (outside(pixel)) return;
+#endif
   ivec3 at = ivec3(pixel, 0);
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
   float end = min(length, 1e15);
   d = pixel_ray(pixel);
   most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
-  if (first_step > 0 || first_light > 0) sum = imageLoad(airlight_image, at).xyz;
+  if (first_step > 0 || !is_first()) sum = imageLoad(airlight_image, at).xyz;
   if (first_step > 0) {
     front = imageLoad(airlight_image, at).w;
     within = imageLoad(transmittance_image, at).x;
   }
 #ifdef WITH_PER_LIGHT
-  if (first_step == 0) {
+  if (first_step == 0 && is_first_of_light()) {
     for (int k = first_light; k < end_light; ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
   }
 #endif

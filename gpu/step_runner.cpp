@@ -75,9 +75,16 @@ void StepRunner::storage(GLuint binding, const Buffer& buffer) {
 }
 
 void StepRunner::storage(GLuint binding, std::span<const std::byte> bytes) {
-  GlBuffer& buffer = small_.try_emplace(binding, gl_).first->second;
-  buffer.fill(bytes.size(), bytes.data());
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+  fill(binding, bytes);
+  bind(binding, binding);
+}
+
+void StepRunner::fill(GLuint number, std::span<const std::byte> bytes) {
+  small_.try_emplace(number, gl_).first->second.fill(bytes.size(), bytes.data());
+}
+
+void StepRunner::bind(GLuint binding, GLuint number) {
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, small_.at(number).name());
 }
 
 std::vector<std::byte> StepRunner::content(const Buffer& buffer) const {
@@ -88,14 +95,13 @@ std::vector<std::byte> StepRunner::content(const Buffer& buffer) const {
   return bytes;
 }
 
-void StepRunner::scratch(GLuint binding, std::size_t bytes) {
-  GlBuffer& buffer = small_.try_emplace(binding, gl_).first->second;
+void StepRunner::reserve(GLuint number, std::size_t bytes) {
+  GlBuffer& buffer = small_.try_emplace(number, gl_).first->second;
   if (buffer.bytes() < bytes) buffer.fill(bytes, nullptr);
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
-void StepRunner::read_storage(GLuint binding, std::span<std::byte> bytes) {
-  gl_.GetNamedBufferSubData(small_.at(binding).name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+void StepRunner::read_storage(GLuint number, std::span<std::byte> bytes) {
+  gl_.GetNamedBufferSubData(small_.at(number).name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
 std::size_t StepRunner::storage_limit() const {

@@ -52,12 +52,15 @@ class StepRunner {
   void write(GLuint unit, const Image&);                     // as an image; absent: nothing
   void read_write(GLuint unit, const Image&);                // the same, to read back what was written
   void storage(GLuint binding, const Buffer&);               // as a storage buffer
-  void storage(GLuint binding, std::span<const std::byte>);  // small values, made for this step
+  void storage(GLuint binding, std::span<const std::byte>);  // values made for this step: fills buffer number `binding`, binds it
   GLuint buffer_name(const Buffer&) const;
-  std::vector<std::byte> content(const Buffer&) const;      // back on the host, for what is set up there
-  void scratch(GLuint binding, std::size_t bytes);          // a storage buffer of undefined content, at least that large
-  void read_storage(GLuint binding, std::span<std::byte>);  // of what storage() made for this step
-  std::size_t storage_limit() const;                        // [byte] of one storage buffer
+  std::vector<std::byte> content(const Buffer&) const;  // back on the host, for what is set up there
+  // Buffers of steps, by number: filled; made at least that large, with undefined content; bound; read back.
+  void fill(GLuint number, std::span<const std::byte>);
+  void reserve(GLuint number, std::size_t bytes);
+  void bind(GLuint binding, GLuint number);
+  void read_storage(GLuint number, std::span<std::byte>);
+  std::size_t storage_limit() const;  // [byte] of one storage buffer
   template <class T>
   void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));

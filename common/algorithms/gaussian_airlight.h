@@ -11,10 +11,12 @@ namespace airlight {
 // Single scattering along each pixel's ray in a sum of Gaussians and a homogeneous part, after Zhou et al. 2007. Optical depths
 // of Gaussians are closed forms (their eq. 31), on the view ray and on the way to each light; what is left is integrated over
 // panels (common/plan/gaussian_panels.h) with `samples` Gauss-Legendre nodes each. Where only the homogeneous part is and nothing
-// shades it, the closed form of HomogeneousAirlight is taken.
+// shades it, the closed form of HomogeneousAirlight is taken. With shadow volumes, each light is integrated over the parts of the
+// ray that it reaches, cut where the ray crosses a plane.
 struct GaussianAirlight {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer tables;   // as in HomogeneousAirlight; needed by point lights where extinction > 0
+  Buffer volumes;  // as ShadowPlanes'; optional: without, nothing throws a shadow
   std::vector<Light> lights;
   std::vector<GaussianDensity> gaussians;
   View view;
@@ -24,7 +26,9 @@ struct GaussianAirlight {
   glm::vec3 albedo{1, 1, 1};    // of the homogeneous part, 0..1
   glm::vec3 ambient{0, 0, 0};   // [W/m^2/sr] source radiance L_a
   glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
-  int samples = 4;              // 1..16
+  int samples = 4;              // 1..most_samples
+
+  static constexpr int most_samples = 16;
 
   Image airlight;       // rgb32f
   Image per_light;      // rgb32f, a layer a light, without ambient and emission; optional
@@ -37,6 +41,7 @@ struct GaussianAirlight {
   static void fields(Self& s, Visit&& v) {
     v(in("distance", "m"), s.distance);
     v(in("tables"), s.tables);
+    v(in("volumes"), s.volumes);
     v(knob("lights"), s.lights);
     v(knob("gaussians"), s.gaussians);
     v(knob("view"), s.view);

@@ -12,6 +12,7 @@ namespace airlight {
 // homogeneous part is SurfaceShading's.
 struct LightMarch {
   Image distance;  // r32f [m], 1e30 on a miss
+  Image lit;       // as ShadowPlanes::light_transmittance, a factor; optional
   Buffer voxels;   // as RayMarch's
   std::vector<Light> lights;
   std::vector<GaussianDensity> gaussians;
@@ -27,6 +28,7 @@ struct LightMarch {
   template <class Self, class Visit>
   static void fields(Self& s, Visit&& v) {
     v(in("distance", "m"), s.distance);
+    v(in("lit"), s.lit);
     v(in("voxels", "1/m"), s.voxels);
     v(knob("lights"), s.lights);
     v(knob("gaussians"), s.gaussians);

@@ -8,13 +8,14 @@
 
 namespace airlight {
 
-// Marches each pixel's ray through the medium from front to back: transmittance, light of unshadowed lights scattered once,
-// ambient and emitted light. Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters
-// Gaussians and grid to where it leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`;
-// one that is empty costs nothing.
+// Marches each pixel's ray through the medium from front to back: transmittance, light scattered once, ambient and emitted light.
+// With shadow volumes, of each step and light only the parts count that the light reaches, cut where the ray crosses a plane.
+// Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters Gaussians and grid to where it
+// leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is empty costs nothing.
 struct RayMarch {
   Image distance;  // r32f [m], 1e30 on a miss
   Buffer voxels;   // extinctions of the grid (common/plan/voxels.h); with a grid
+  Buffer volumes;  // as ShadowPlanes'; optional: without, nothing throws a shadow
   std::vector<Light> lights;
   std::vector<GaussianDensity> gaussians;
   GridDensity grid;
@@ -40,6 +41,7 @@ struct RayMarch {
   static void fields(Self& s, Visit&& v) {
     v(in("distance", "m"), s.distance);
     v(in("voxels", "1/m"), s.voxels);
+    v(in("volumes"), s.volumes);
     v(knob("lights"), s.lights);
     v(knob("gaussians"), s.gaussians);
     v(knob("grid"), s.grid);

@@ -6,6 +6,7 @@
 
 #include "common/plan/airlight_tables.h"
 #include "common/plan/hash.h"
+#include "common/plan/shadow_volumes.h"
 #include "common/plan/surface_airlight_tables.h"
 #include "common/plan/upload.h"
 
@@ -40,6 +41,17 @@ Knob table_nodes_knob() {
       .meaning =
           "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
       .sweep = {"16", "24", "32", "48", "64", "96", "128"}};
+}
+
+Knob shadows_knob() {
+  return {.name = "shadows",
+          .kind = Knob::Kind::choice,
+          .standard = "on",
+          .least = 0,
+          .most = 0,
+          .choices = {"on", "off"},
+          .meaning = "shadows of the casters, in the medium and on surfaces",
+          .sweep = {}};
 }
 
 FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
@@ -111,6 +123,58 @@ Buffer FramePlan::add_airlight_tables() {
   plan.uploads.push_back(
       table_upload(tables, key.value(), [phase = scene.medium.phase, nodes] { return airlight_tables(phase, nodes); }));
   return tables;
+}
+
+Buffer FramePlan::add_shadow_volumes(std::uint32_t id, ShadowOrder order) {
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                   [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); });
+  if (!casters || lights.empty()) {
+    plan.skips.push_back({"shadow planes", casters ? "no light" : "nothing casts a shadow"});
+    return {};
+  }
+  if (request.knobs.choice("shadows") == "off") {
+    plan.skips.push_back({"shadow planes", "shadows = off"});
+    return {};
+  }
+  bool any = false;
+  std::size_t out_of_reach = 0;
+  for (const std::size_t light : light_index) {
+    for (const Surface& s : scene.surfaces) {
+      if (!s.casts_shadow || s.mesh->triangles.empty()) continue;
+      if (shadow_matters(scene, s, scene.lights[light])) {
+        any = true;
+      } else {
+        ++out_of_reach;
+      }
+    }
+  }
+  if (out_of_reach > 0) {
+    plan.skips.push_back({"silhouettes of " + std::to_string(out_of_reach) + " casters out of reach of a light",
+                          "the fog before them lets nothing through"});
+  }
+  if (!any) {
+    plan.skips.push_back({"shadow planes", "no light reaches a caster"});
+    return {};
+  }
+  plan.uploads.push_back(shadow_volumes_upload(scene, light_index, order, geometry.positions.key ^ geometry.indices.key, id));
+  return plan.uploads.back().buffer;
+}
+
+Image FramePlan::add_lit(Buffer volumes, std::uint32_t id) {
+  if (!volumes) return {};
+  const Image lit = handed_on(id, Format::r32f, static_cast<int>(lights.size()));
+  plan.steps.push_back({ShadowPlanes{.distance = distance,
+                                     .volumes = volumes,
+                                     .tables = {},
+                                     .lights = lights,
+                                     .view = view,
+                                     .phase = scene.medium.phase,
+                                     .extinction = extinction,
+                                     .sky_distance = sky_distance,
+                                     .scattered = {},
+                                     .light_transmittance = lit},
+                        "which surfaces the lights reach"});
+  return lit;
 }
 
 // Absent where the scene has nothing to scatter or to receive, or the knob does not ask for it.

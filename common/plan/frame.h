@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/algorithms/shadow_planes.h"
 #include "common/plan/geometry.h"
 #include "common/scene/scene.h"
 #include "common/techniques/technique.h"
@@ -17,6 +18,8 @@ namespace airlight {
 Knob indirect_knob();
 // `table_nodes`, of FramePlan::add_airlight_tables().
 Knob table_nodes_knob();
+// `shadows`: on | off, of FramePlan::add_shadow_volumes().
+Knob shadows_knob();
 
 class FramePlan {
  public:
@@ -48,6 +51,11 @@ class FramePlan {
 
   // The tables of HomogeneousAirlight. The technique has the knob table_nodes.
   Buffer add_airlight_tables();
+  // The volumes of ShadowPlanes, under a handle of the technique's own; absent where the knob `shadows` is off or nothing throws
+  // a shadow that can be seen, which the plan's skips tell.
+  Buffer add_shadow_volumes(std::uint32_t id, ShadowOrder = ShadowOrder::exact);
+  // Which surfaces the lights reach, where there are volumes: a layer a light; else absent.
+  Image add_lit(Buffer volumes, std::uint32_t id);
   // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
   // SurfaceShading, or absent. After the step that makes `transmittance`.
   void shade(Image light_transmittance);

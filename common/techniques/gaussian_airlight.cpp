@@ -11,14 +11,11 @@ namespace {
 
 std::optional<std::string> refuses(const Scene& scene) {
   if (scene.medium.grid) return "it renders Gaussians and homogeneous fog, the scene has a grid";
-  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
-  if (casters && !scene.lights.empty())
-    return "it has no shadows of surfaces in this version, the scene has surfaces that cast them (casts_shadow)";
   return std::nullopt;
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  constexpr std::uint32_t light_transmittance_id = FramePlan::first_own_id;
+  enum : std::uint32_t { light_transmittance_id = FramePlan::first_own_id, volumes_id, lit_id };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -27,8 +24,11 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const bool lamps = std::any_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return !l.directional; });
   Buffer tables;
   if (frame.extinction > 0 && lamps) tables = frame.add_airlight_tables();
+  // Which parts of each ray the lights reach.
+  const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   frame.plan.steps.push_back({GaussianAirlight{.distance = frame.distance,
                                                .tables = tables,
+                                               .volumes = volumes,
                                                .lights = frame.lights,
                                                .gaussians = gaussians,
                                                .view = frame.view,
@@ -45,10 +45,12 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                                .optical_depth = frame.optical_depth},
                               "light scattered once along the view ray"});
   // Section 4: surfaces are lit through the medium.
+  const Image lit = frame.add_lit(volumes, lit_id);
   Image light_transmittance;
   if (!gaussians.empty() && frame.has_surfaces() && !frame.lights.empty()) {
     light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
     frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
+                                           .lit = lit,
                                            .voxels = {},
                                            .lights = frame.lights,
                                            .gaussians = gaussians,
@@ -59,7 +61,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                            .light_transmittance = light_transmittance},
                                 "what of each light reaches the surfaces"});
   }
-  frame.shade(light_transmittance);
+  frame.shade(light_transmittance ? light_transmittance : lit);
 
   // What this scene does not need.
   if (gaussians.size() < medium.gaussians.size())
@@ -100,6 +102,7 @@ Technique gaussian_airlight() {
               .meaning = "nodes along the view ray in each panel, which is four radii of the smallest Gaussian there at most",
               .sweep = {"1", "2", "3", "4", "5", "6", "8", "12", "16"}},
              table_nodes_knob(),
+             shadows_knob(),
              indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;

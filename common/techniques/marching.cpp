@@ -14,15 +14,8 @@ namespace {
 
 constexpr double grid_scale = 6;  // cells over which the extinction of a grid is taken to change, in estimate()
 
-std::optional<std::string> refuses(const Scene& scene) {
-  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
-  if (casters && !scene.lights.empty())
-    return "it has no shadows in this version, the scene has surfaces that cast them (casts_shadow)";
-  return std::nullopt;
-}
-
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, light_transmittance_id };
+  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, light_transmittance_id, volumes_id, lit_id };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -39,8 +32,10 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     voxels = frame.plan.uploads.back().buffer;
     grid = grid_density(*medium.grid, scene.camera.position);
   }
+  const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   frame.plan.steps.push_back({RayMarch{.distance = frame.distance,
                                        .voxels = voxels,
+                                       .volumes = volumes,
                                        .lights = frame.lights,
                                        .gaussians = gaussians,
                                        .grid = grid,
@@ -59,10 +54,12 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .transmittance = frame.transmittance,
                                        .optical_depth = frame.optical_depth},
                               "the view ray through the medium, step by step"});
+  const Image lit = frame.add_lit(volumes, lit_id);
   Image light_transmittance;
   if (uneven && frame.has_surfaces() && !frame.lights.empty()) {
     light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
     frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
+                                           .lit = lit,
                                            .voxels = voxels,
                                            .lights = frame.lights,
                                            .gaussians = gaussians,
@@ -73,7 +70,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                            .light_transmittance = light_transmittance},
                                 "what of each light reaches the surfaces"});
   }
-  frame.shade(light_transmittance);
+  frame.shade(light_transmittance ? light_transmittance : lit);
 
   // What this scene does not need.
   if (gaussians.size() < medium.gaussians.size())
@@ -167,7 +164,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
 Technique marching() {
   Technique t;
   t.name = "marching";
-  t.summary = "ray marching through any medium, without shadows of surfaces";
+  t.summary = "ray marching through any medium";
   t.knobs = {{.name = "steps",
               .kind = Knob::Kind::integer,
               .standard = "32",
@@ -190,8 +187,9 @@ Technique marching() {
               .choices = {"analytic", "march"},
               .meaning = "how the light's way through Gaussians is attenuated",
               .sweep = {"analytic", "march"}},
+             shadows_knob(),
              indirect_knob()};
-  t.refuses = refuses;
+  t.refuses = [](const Scene&) { return std::optional<std::string>(); };
   t.plan = plan;
   t.estimate = estimate;
   return t;

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "common/plan/frame.h"
-#include "common/plan/shadow_volumes.h"
 
 namespace airlight {
 
@@ -14,36 +13,6 @@ std::optional<std::string> refuses(const Scene& scene) {
   if (!scene.medium.gaussians.empty()) return "it renders homogeneous media only, the scene has Gaussians";
   if (scene.medium.grid) return "it renders homogeneous media only, the scene has a grid";
   return std::nullopt;
-}
-
-// Whether anything throws a shadow that can be seen; in `plan` what is left out.
-bool any_shadow(const Scene& scene, const std::vector<std::size_t>& lights, bool wanted, Plan& plan) {
-  bool any = false;
-  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                                   [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); });
-  if (!casters || lights.empty()) {
-    plan.skips.push_back({"shadow planes", casters ? "no light" : "nothing casts a shadow"});
-  } else if (!wanted) {
-    plan.skips.push_back({"shadow planes", "shadows = off"});
-  } else {
-    std::size_t out_of_reach = 0;
-    for (const std::size_t light : lights) {
-      for (const Surface& s : scene.surfaces) {
-        if (!s.casts_shadow || s.mesh->triangles.empty()) continue;
-        if (shadow_matters(scene, s, scene.lights[light])) {
-          any = true;
-        } else {
-          ++out_of_reach;
-        }
-      }
-    }
-    if (out_of_reach > 0) {
-      plan.skips.push_back({"silhouettes of " + std::to_string(out_of_reach) + " casters out of reach of a light",
-                            "the fog before them lets nothing through"});
-    }
-    if (!any) plan.skips.push_back({"shadow planes", "no light reaches a caster"});
-  }
-  return any;
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
@@ -61,16 +30,13 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     tables = frame.add_airlight_tables();
   }
   Image scattered, lit;
-  if (any_shadow(scene, frame.light_index, request.knobs.choice("shadows") != "off", frame.plan)) {
-    const ShadowOrder order = request.knobs.choice("shadows") == "published" ? ShadowOrder::published : ShadowOrder::exact;
+  const ShadowOrder order = request.knobs.choice("shadows") == "published" ? ShadowOrder::published : ShadowOrder::exact;
+  if (const Buffer volumes = frame.add_shadow_volumes(volumes_id, order)) {
     const int layers = static_cast<int>(frame.lights.size());
     if (!scattered_lights.empty() && foggy) scattered = frame.handed_on(scattered_id, Format::r32f, layers);
     if (frame.has_surfaces()) lit = frame.handed_on(lit_id, Format::r32f, layers);
-    const Plan::Upload volumes = shadow_volumes_upload(scene, frame.light_index, order,
-                                                       frame.geometry.positions.key ^ frame.geometry.indices.key, volumes_id);
-    frame.plan.uploads.push_back(volumes);
     frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
-                                             .volumes = volumes.buffer,
+                                             .volumes = volumes,
                                              .tables = scattered ? tables : Buffer{},
                                              .lights = frame.lights,
                                              .view = frame.view,

@@ -1,3 +1,5 @@
+#include "common/techniques/gaussian_airlight.h"
+#include "common/techniques/marching.h"
 #include "common/techniques/shadow_planes.h"
 #include "tests/parity/inputs.h"
 
@@ -5,8 +7,7 @@ namespace airlight {
 
 namespace {
 
-Case frame(const Scene& scene, Extent extent) {
-  const Technique technique = shadow_planes();
+Case frame(const Scene& scene, Extent extent, const Technique& technique = shadow_planes()) {
   FrameRequest request;
   request.extent = extent;
   request.images = {"beauty", "surface", "airlight", "depth"};
@@ -31,11 +32,27 @@ Case empty_fog(Extent e) {
   return frame(scene, e);
 }
 
+// Gaussians around the torus, which throws its shadow through them.
+Scene torus_among_gaussians() {
+  Scene scene = test_scene(2000);
+  scene.medium.extinction = 0.03;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const glm::dvec3 center(2 * uniform(71, 4 * i) - 1, uniform(71, 4 * i + 1), 2 * uniform(71, 4 * i + 2) - 1);
+    scene.medium.gaussians.push_back({.center = center, .radius = 0.4 + 0.5 * uniform(71, 4 * i + 3), .extinction = 0.8});
+  }
+  return scene;
+}
+Case shadows_in_gaussians(Extent e) { return frame(torus_among_gaussians(), e, gaussian_airlight()); }
+Case marched_shadows(Extent e) { return frame(torus_among_gaussians(), e, marching()); }
+
 }  // namespace
 
 std::span<const NamedCase> frame_cases() {
-  static constexpr NamedCase cases[] = {
-      {"frame/torus_in_fog", torus_in_fog}, {"frame/torus_in_clear_air", torus_in_clear_air}, {"frame/empty_fog", empty_fog}};
+  static constexpr NamedCase cases[] = {{"frame/torus_in_fog", torus_in_fog},
+                                        {"frame/torus_in_clear_air", torus_in_clear_air},
+                                        {"frame/empty_fog", empty_fog},
+                                        {"frame/shadows_in_gaussians", shadows_in_gaussians},
+                                        {"frame/marched_shadows", marched_shadows}};
   return cases;
 }
 

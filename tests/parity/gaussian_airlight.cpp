@@ -15,7 +15,8 @@ struct Parts {
   bool parts = true;         // per light, optical depth
   bool lamp_within = false;  // a lamp at the centre of a Gaussian, others close to rays
   bool dark = false;         // no light
-};
+  bool casters = false;
+};  // namespace
 
 Case scatter(Extent extent, const Parts& parts) {
   Case c;
@@ -38,6 +39,7 @@ Case scatter(Extent extent, const Parts& parts) {
   const Image depth{{8}, Format::r32f, extent, 1, true};
   c.steps = {{GaussianAirlight{.distance = surfaces.distance,
                                .tables = tables,
+                               .volumes = parts.casters ? add_test_volumes(c, 9, lights) : Buffer{},
                                .lights = lights,
                                .gaussians = gaussians,
                                .view = view,
@@ -66,6 +68,11 @@ const NamedCase cases[] = {
      [](Extent e) { return scatter(e, {.extinction = 0.1F, .gaussians = 0, .sky_distance = 1e30F}); }},
     {"gaussian_airlight/glow_alone", [](Extent e) { return scatter(e, {.dark = true}); }},
     {"gaussian_airlight/lamp_within", [](Extent e) { return scatter(e, {.samples = 3, .lamp_within = true}); }},
+    {"gaussian_airlight/casters", [](Extent e) { return scatter(e, {.samples = 3, .lamp_within = true, .casters = true}); }},
+    {"gaussian_airlight/casters_in_fog",
+     [](Extent e) {
+       return scatter(e, {.extinction = 0.06F, .gaussians = 4, .sky_distance = 1e30F, .parts = false, .casters = true});
+     }},
     {"gaussian_airlight/sixteen_samples", [](Extent e) { return scatter(e, {.samples = 16, .phase = {}}); }},
     {"gaussian_airlight/many",
      [](Extent e) {
@@ -77,6 +84,10 @@ const NamedCase cases[] = {
 const NamedCase in_parts[] = {
     {"gaussian_airlight/in_parts",
      [](Extent e) { return scatter(e, {.extinction = 0.05F, .gaussians = 100, .samples = 12, .lamp_within = true}); }},
+    {"gaussian_airlight/casters_in_parts",
+     [](Extent e) {
+       return scatter(e, {.extinction = 0.05F, .gaussians = 100, .samples = 16, .lamp_within = true, .casters = true});
+     }},
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "common/plan/shadow_volumes.h"
+
 namespace airlight {
 
 namespace {
@@ -125,6 +127,55 @@ Scene test_scene(std::size_t triangles) {
   scene.surfaces = {ground, {.mesh = wavy_torus(triangles), .material = materials[1]}};
   scene.background = {0.02, 0.03, 0.05};
   return scene;
+}
+
+Scene lit_scene(std::shared_ptr<const Mesh> mesh, const glm::dvec3& at, double size, const std::vector<Light>& lights) {
+  Scene scene = test_scene(8);
+  scene.camera.position = {0, 0, 0};
+  scene.lights.clear();
+  for (const Light& l : lights) {
+    LightSource light;
+    light.type = l.directional ? LightType::directional : LightType::point;
+    light.position = l.directional ? glm::dvec3(0) : glm::dvec3(l.vector);
+    light.direction = l.directional ? glm::normalize(glm::dvec3(l.vector)) : glm::dvec3(0, -1, 0);
+    light.power = l.power;
+    light.radius = static_cast<double>(l.radius);
+    scene.lights.push_back(light);
+  }
+  Surface caster;
+  caster.mesh = std::move(mesh);
+  caster.transform = glm::dmat4(size);
+  caster.transform[3] = glm::dvec4(at, 1);
+  scene.surfaces = {caster};
+  return scene;
+}
+
+std::shared_ptr<const Mesh> slats(unsigned n) {
+  auto mesh = std::make_shared<Mesh>();
+  for (unsigned i = 0; i < n; ++i) {
+    const float x0 = (2.0F * static_cast<float>(i) + 0.5F) / static_cast<float>(n) - 1, x1 = x0 + 1 / static_cast<float>(n);
+    for (const float x : {x0, x1}) {
+      for (const float z : {-1.0F, 1.0F}) mesh->positions.emplace_back(x, 0, z);
+    }
+    mesh->triangles.emplace_back(4 * i, 4 * i + 1, 4 * i + 2);
+    mesh->triangles.emplace_back(4 * i + 1, 4 * i + 3, 4 * i + 2);
+  }
+  mesh->normals.assign(mesh->positions.size(), {0, 1, 0});
+  return mesh;
+}
+
+Buffer add_test_volumes(Case& c, std::uint32_t id, const std::vector<Light>& lights) {
+  Scene scene = lit_scene(wavy_torus(2000), {-0.4, 0.3, -4.6}, 0.5, lights);
+  Surface bars = scene.surfaces[0];
+  bars.mesh = slats(40);
+  bars.transform = glm::dmat4(1.2);
+  bars.transform[3] = {0.5, 0.9, -4.2, 1};
+  scene.surfaces.push_back(bars);
+  std::vector<std::size_t> index(lights.size());
+  for (std::size_t i = 0; i < index.size(); ++i) index[i] = i;
+  const Plan::Upload volumes = shadow_volumes_upload(scene, index, ShadowOrder::exact, 1, id);
+  c.buffers.emplace_back(volumes.buffer, volumes.make());
+  return volumes.buffer;
 }
 
 }  // namespace airlight

@@ -34,4 +34,11 @@ std::shared_ptr<const Mesh> square(double half);  // in the plane y = 0
 // The torus over a plane in fog under those lights, seen from 4 m.
 Scene test_scene(std::size_t triangles);
 
+// `n` slats across x, each with a gap of its own width.
+std::shared_ptr<const Mesh> slats(unsigned n);
+// One caster under these lights, seen by the camera of test_view().
+Scene lit_scene(std::shared_ptr<const Mesh>, const glm::dvec3& at, double size, const std::vector<Light>& = test_lights());
+// Shadow volumes of a torus and of slats under these lights; they become buffer `id` of the case.
+Buffer add_test_volumes(Case&, std::uint32_t id, const std::vector<Light>&);
+
 }  // namespace airlight

@@ -5,7 +5,7 @@ namespace airlight {
 
 namespace {
 
-Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int light_steps) {
+Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int light_steps, bool shadowed = false) {
   Case c;
   const View view = test_view(extent);
   const TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -15,7 +15,14 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
   if (grid) add_test_grid(medium, c, 4);
   const std::vector<Light> lights = test_lights();
   const Image through{{5}, Format::r32f, extent, static_cast<int>(lights.size()), true};
+  const Image lit{{6}, Format::r32f, extent, static_cast<int>(lights.size()), false};
+  if (shadowed) {
+    std::vector<float> values(lights.size() * surfaces.distances.size());
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = i % 7 < 3 ? 0.0F : 1.0F;
+    c.images.emplace_back(lit, values);
+  }
   c.steps = {{LightMarch{.distance = surfaces.distance,
+                         .lit = shadowed ? lit : Image{},
                          .voxels = medium.voxels,
                          .lights = lights,
                          .gaussians = medium.gaussians,
@@ -31,6 +38,7 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
 
 const NamedCase cases[] = {
     {"light_march/analytic", [](Extent e) { return march(e, 7, false, LightDepth::analytic, 1); }},
+    {"light_march/shadowed", [](Extent e) { return march(e, 3, false, LightDepth::analytic, 1, true); }},
     {"light_march/marched", [](Extent e) { return march(e, 5, false, LightDepth::march, 16); }},
     {"light_march/grid", [](Extent e) { return march(e, 0, true, LightDepth::analytic, 24); }},
     {"light_march/everything", [](Extent e) { return march(e, 4, true, LightDepth::march, 16); }},

@@ -14,7 +14,8 @@ struct Parts {
   Phase phase = {PhaseKind::henyey_greenstein, 0.4};
   float sky_distance = 1e30F;
   bool parts = true;  // per light, optical depth
-};
+  bool casters = false;
+};  // namespace
 
 Case march(Extent extent, const Parts& parts) {
   Case c;
@@ -31,6 +32,7 @@ Case march(Extent extent, const Parts& parts) {
   const Image depth{{8}, Format::r32f, extent, 1, true};
   c.steps = {{RayMarch{.distance = surfaces.distance,
                        .voxels = medium.voxels,
+                       .volumes = parts.casters ? add_test_volumes(c, 9, lights) : Buffer{},
                        .lights = lights,
                        .gaussians = medium.gaussians,
                        .grid = medium.grid,
@@ -66,6 +68,9 @@ const NamedCase cases[] = {
      [](Extent e) { return march(e, {.extinction = 0, .gaussians = 5, .light_depth = marched, .sky_distance = 100}); }},
     {"ray_march/many_gaussians", [](Extent e) { return march(e, {.gaussians = 132, .steps = 1, .parts = false}); }},
     {"ray_march/grid", [](Extent e) { return march(e, {.extinction = 0, .grid = true, .phase = {}, .sky_distance = 100}); }},
+    {"ray_march/casters", [](Extent e) { return march(e, {.steps = 12, .casters = true}); }},
+    {"ray_march/casters_in_everything",
+     [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .casters = true}); }},
     {"ray_march/everything",
      [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .light_depth = marched}); }},
 };
@@ -74,6 +79,10 @@ const NamedCase cases[] = {
 const NamedCase in_parts[] = {
     {"ray_march/steps_in_parts",
      [](Extent e) { return march(e, {.gaussians = 3, .steps = 96, .light_steps = 192, .light_depth = marched}); }},
+    {"ray_march/casters_in_parts",
+     [](Extent e) {
+       return march(e, {.gaussians = 6, .steps = 24, .light_steps = 600, .light_depth = marched, .casters = true});
+     }},
     {"ray_march/lights_in_parts",
      [](Extent e) { return march(e, {.gaussians = 12, .steps = 2, .light_steps = 1500, .light_depth = marched}); }},
 };

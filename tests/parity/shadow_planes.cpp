@@ -1,5 +1,3 @@
-#include <glm/geometric.hpp>
-
 #include "common/plan/airlight_tables.h"
 #include "common/plan/shadow_volumes.h"
 #include "tests/parity/inputs.h"
@@ -47,42 +45,6 @@ Case shadows(const Scene& scene, Extent extent, float sky_distance, ShadowOrder 
               ""}};
   c.results = {{"scattered", scattered}, {"light_transmittance", lit}};
   return c;
-}
-
-Scene lit_scene(std::shared_ptr<const Mesh> mesh, const glm::dvec3& at, double size) {
-  Scene scene = test_scene(8);
-  scene.camera.position = {0, 0, 0};
-  scene.lights.clear();
-  for (const Light& l : test_lights()) {
-    LightSource light;
-    light.type = l.directional ? LightType::directional : LightType::point;
-    light.position = l.directional ? glm::dvec3(0) : glm::dvec3(l.vector);
-    light.direction = l.directional ? glm::normalize(glm::dvec3(l.vector)) : glm::dvec3(0, -1, 0);
-    light.power = l.power;
-    light.radius = static_cast<double>(l.radius);
-    scene.lights.push_back(light);
-  }
-  Surface caster;
-  caster.mesh = std::move(mesh);
-  caster.transform = glm::dmat4(size);
-  caster.transform[3] = glm::dvec4(at, 1);
-  scene.surfaces = {caster};
-  return scene;
-}
-
-// `n` slats across x, each with a gap of its own width.
-std::shared_ptr<const Mesh> slats(unsigned n) {
-  auto mesh = std::make_shared<Mesh>();
-  for (unsigned i = 0; i < n; ++i) {
-    const float x0 = (2.0F * static_cast<float>(i) + 0.5F) / static_cast<float>(n) - 1, x1 = x0 + 1 / static_cast<float>(n);
-    for (const float x : {x0, x1}) {
-      for (const float z : {-1.0F, 1.0F}) mesh->positions.emplace_back(x, 0, z);
-    }
-    mesh->triangles.emplace_back(4 * i, 4 * i + 1, 4 * i + 2);
-    mesh->triangles.emplace_back(4 * i + 1, 4 * i + 3, 4 * i + 2);
-  }
-  mesh->normals.assign(mesh->positions.size(), {0, 1, 0});
-  return mesh;
 }
 
 Case torus(Extent e) { return shadows(lit_scene(wavy_torus(2000), {-0.4, 0.3, -4.6}, 0.5), e, 1e30F); }

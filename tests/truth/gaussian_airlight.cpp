@@ -1,6 +1,7 @@
 // gaussian-airlight against the reference: by default, and how its error falls with the nodes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -31,6 +32,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
   std::printf("%zu Gaussians, %dx%d, truth claims %.1e\n", scene.medium.gaussians.size(), extent.width, extent.height,
               truth.error);
   EXPECT_FALSE(!(truth.error <= 1e-4));
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
   for (const char* backend : {"cpu", "gl"}) {
     Renderer renderer({.backend = backend});
     for (const char* samples : {"1", "2", "3", "4", "6", "8"}) {
@@ -54,6 +56,17 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
         EXPECT_FALSE(!(beauty < tolerance("truth_gaussians_fine"))) << backend;
       }
     }
+    if (!casters) continue;
+    // The comparison sees shadows.
+    RenderSettings unshadowed;
+    unshadowed.technique = "gaussian-airlight";
+    unshadowed.knobs = {{"shadows", "off"}};
+    unshadowed.resolution = extent;
+    unshadowed.images = {"airlight"};
+    const Frame frame = renderer.render(scene, unshadowed);
+    const double without = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
+    std::printf("%-3s without shadows: relative RMSE of the airlight %.5f %%\n", backend, 100 * without);
+    EXPECT_GT(without, tolerance("truth_gaussians")) << backend;
   }
 }
 

@@ -168,6 +168,36 @@ Scene pierced_tube() {
   return scene;
 }
 
+// A lamp behind slats: shafts through five Gaussians in thin fog, and on the floor beneath them.
+Scene shafts_through_blobs() {
+  Scene scene = blobs(0.03, {0.6, 0.7, 5}, {0, -0.1, -1});
+  scene.sky_distance = 25;
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.3};
+  scene.medium.gaussians = {{.center = {-1.2, 0.2, -1}, .radius = 0.8, .extinction = 0.7, .albedo = {1, 0.9, 0.8}},
+                            {.center = {0.1, -0.3, -0.6}, .radius = 0.7, .extinction = 0.9},
+                            {.center = {1.3, 0.3, -1.4}, .radius = 0.9, .extinction = 0.6, .albedo = {0.8, 0.9, 1}},
+                            {.center = {0.3, 0.5, -2.5}, .radius = 1.1, .extinction = 0.3, .emission = {0.002, 0.001, 0}},
+                            {.center = {-0.3, 2.1, -0.9}, .radius = 0.4, .extinction = 0.8}};
+  scene.lights = {point_light({0.2, 3.3, -1.1}, {25, 22, 17}), directional_light({0.5, -1, -0.3}, {0.3, 0.35, 0.5})};
+  Mesh slats, floor;
+  for (int i = 0; i < 6; ++i) add_parallelogram(slats, {-1.35 + 0.5 * i, 1.5, -2.4}, {0.27, 0.02 * i, 0}, {0, 0, 2.7});
+  add_parallelogram(floor, {-5, -1.3, 3}, {10, 0, 0}, {0, 0, -8});
+  scene.surfaces = {surface(std::move(slats), diffuse(0.4F, 0.3F, 0.2F), true),
+                    surface(std::move(floor), diffuse(0.4F, 0.4F, 0.4F), true)};
+  scene.background = {0.02, 0.03, 0.05};
+  return scene;
+}
+
+// A box within a Gaussian, between the lamps on either side of it; no fog.
+Scene box_in_blob() {
+  Scene scene = blobs(0, {0.3, 0.5, 4.5}, {0, 0, 0});
+  scene.medium.gaussians = {{.center = {0, 0, 0}, .radius = 1.2, .extinction = 0.9, .albedo = {0.95, 0.9, 0.85}},
+                            {.center = {0.9, 0.6, 0.3}, .radius = 0.5, .extinction = 1.2}};
+  scene.lights = {point_light({-1.7, 1.3, 0.4}, {12, 10, 7}), point_light({0.7, 0.1, -1.1}, {2, 3, 5})};
+  scene.surfaces = {surface(box({-0.45, -0.35, -0.3}, {0.25, 0.4, 0.35}), diffuse(0.5F, 0.5F, 0.45F), true)};
+  return scene;
+}
+
 constexpr TruthScene scenes[] = {{"one_blob", one_blob},
                                  {"eight_blobs", eight_blobs},
                                  {"valley", valley},
@@ -178,7 +208,10 @@ constexpr TruthScene scenes[] = {{"one_blob", one_blob},
                                  {"blobs_behind_camera", blobs_behind_camera},
                                  {"halo", halo},
                                  {"pierced_tube", pierced_tube},
-                                 {"lamp_in_gaussians", lamp_in_gaussians}};
+                                 {"lamp_in_gaussians", lamp_in_gaussians},
+                                 {"gaussians_behind_box", gaussians_behind_box},
+                                 {"shafts_through_blobs", shafts_through_blobs},
+                                 {"box_in_blob", box_in_blob}};
 
 }  // namespace
 

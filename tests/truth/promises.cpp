@@ -20,10 +20,7 @@ constexpr Extent extent{64, 48};
 class Promises : public testing::TestWithParam<TruthScene> {};
 
 TEST_P(Promises, AreKeptWithinAFactorOfTwo) {
-  Scene scene = GetParam().make();
-  if (!scene.medium.gaussians.empty() || scene.medium.grid) {  // nothing of this version throws shadows there
-    for (Surface& s : scene.surfaces) s.casts_shadow = false;
-  }
+  const Scene scene = GetParam().make();
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
   const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, true}, true, threads, progress);

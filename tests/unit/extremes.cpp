@@ -95,10 +95,9 @@ Scene extreme_scene(std::uint32_t seed) {
   return s;
 }
 
-// The same with Gaussians and a grid, for which no surface throws a shadow.
+// The same with Gaussians and a grid.
 Scene extreme_medium(std::uint32_t seed) {
   Scene s = extreme_scene(seed);
-  for (Surface& surface : s.surfaces) surface.casts_shadow = false;
   Draw draw(seed + 5000);
   const int gaussians = static_cast<int>(draw.between(0, 5));
   for (int i = 0; i < gaussians; ++i) {

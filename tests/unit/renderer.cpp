@@ -74,7 +74,9 @@ TEST_P(RendererOn, WorksAfterAnError) {
   EXPECT_THROW(renderer.render(scene, wrong), InputError);
   Scene gaussian = scene;
   gaussian.medium.gaussians.emplace_back();
-  EXPECT_THROW(renderer.render(gaussian, {}), InputError);
+  wrong = {};
+  wrong.technique = "shadow-planes";
+  EXPECT_THROW(renderer.render(gaussian, wrong), InputError);
   struct Stopped final : Progress {
     void report(std::string_view, double) override {}
     bool stop_requested() const override { return true; }
