@@ -151,9 +151,9 @@ TEST_F(Program, HelpListsWhatWorks) {
   EXPECT_EQ(work.run("--help").code, 0);
   const Told told = work.run("render --help");
   EXPECT_EQ(told.code, 0);
-  for (const std::string word : {"table_nodes", "--technique", "marching", "reference", "Examples"})
+  for (const std::string word : {"table_nodes", "--technique", "marching", "gaussian-airlight", "reference", "Examples"})
     EXPECT_NE(told.out.find(word), std::string::npos) << word;
-  for (const std::string later : {"gaussian-airlight", "--frames"}) EXPECT_EQ(told.out.find(later), std::string::npos) << later;
+  EXPECT_EQ(told.out.find("--frames"), std::string::npos);
   EXPECT_EQ(work.run("--version").out.substr(0, 9), "airlight ");
 }
 
@@ -180,7 +180,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --backend gl --gl-context glx", 2, "osmesa");
   refused("render scene.json -o a.exr --backend gl --gl-context osmesa --gl-device 1", 3, "OSMesa");
   refused("render scene.json -o a.exr --backend gl --technique reference", 2, "reference");
-  refused("render scene.json -o a.exr --technique gaussian-airlight", 2, "gaussian-airlight");
+  refused("render scene.json -o a.exr --technique radiosity", 2, "radiosity");
   refused("render scene.json -o a.exr --frames 0-9", 2, "--frames: not in this version");
   refused("view scene.json", 2, "view: not in this version");
   refused("render scene.json -o a.exr --supersample 17", 2, "1..16");
