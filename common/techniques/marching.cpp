@@ -156,7 +156,14 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
     error += of_uneven(diagonal, grid_scale * cell, n) + of_uneven(diagonal, grid_scale * cell, light_n);
     nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
   }
-  return {error, 1e-9 * nanoseconds * extent.width * extent.height / threads};
+  // Shadows, as of shadow-planes: a pixel and light, and a triangle and light. The triangles of surfaces that throw none cost
+  // little.
+  double casting = 0;
+  for (const Surface& s : scene.surfaces) casting += s.casts_shadow ? static_cast<double>(s.mesh->triangles.size()) : 0;
+  const bool shadows = casting > 0 && knobs.choice("shadows") != "off";
+  if (shadows) nanoseconds += 40 * lights;
+  const double set_up = shadows ? 150 * casting * lights : 0;
+  return {error, 1e-9 * (nanoseconds * extent.width * extent.height + set_up) / threads};
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --backend gl --gl-context glx", 2, "osmesa");
   refused("render scene.json -o a.exr --backend gl --gl-context osmesa --gl-device 1", 3, "OSMesa");
   refused("render scene.json -o a.exr --backend gl --technique reference", 2, "reference");
-  refused("render scene.json -o a.exr --technique gaussian-airlight", 2, "gaussian-airlight");
+  refused("render scene.json -o a.exr --technique radiosity", 2, "radiosity");
   refused("render scene.json -o a.exr --frames 0-9", 2, "--frames: not in this version");
   refused("view scene.json", 2, "view: not in this version");
   refused("render scene.json -o a.exr --supersample 17", 2, "1..16");

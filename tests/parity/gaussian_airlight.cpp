@@ -86,7 +86,7 @@ const NamedCase in_parts[] = {
      [](Extent e) { return scatter(e, {.extinction = 0.05F, .gaussians = 100, .samples = 12, .lamp_within = true}); }},
     {"gaussian_airlight/casters_in_parts",
      [](Extent e) {
-       return scatter(e, {.extinction = 0.05F, .gaussians = 100, .samples = 16, .lamp_within = true, .casters = true});
+       return scatter(e, {.extinction = 0.05F, .gaussians = 60, .samples = 12, .lamp_within = true, .casters = true});
      }},
 };
 

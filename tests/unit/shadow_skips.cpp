@@ -10,8 +10,10 @@ namespace airlight {
 
 namespace {
 
-HostImage beauty(Renderer& renderer, const Scene& scene, const std::string& shadows = "on") {
+HostImage beauty(Renderer& renderer, const Scene& scene, const std::string& shadows = "on",
+                 const std::string& technique = "shadow-planes") {
   RenderSettings settings;
+  settings.technique = technique;
   settings.resolution = Extent{160, 120};
   settings.knobs = {{"shadows", shadows}};
   return renderer.render(scene, settings).image("beauty");
@@ -29,6 +31,28 @@ TEST_P(ShadowSkips, NothingThatCastsIsAsShadowsOff) {
   EXPECT_NE(explain(scene, {}).find("shadow planes: nothing casts a shadow"), std::string::npos) << explain(scene, {});
   for (Surface& s : scene.surfaces) s.casts_shadow = true;
   EXPECT_NE(beauty(renderer, scene).values, beauty(renderer, scene, "off").values);
+}
+
+// In uneven media the lit parts are made, or not, by the kernels themselves.
+TEST_P(ShadowSkips, NothingThatCastsInUnevenMedia) {
+  for (const std::string technique : {"marching", "gaussian-airlight"}) {
+    RenderSettings settings;
+    settings.technique = technique;
+    Scene scene = test_scene(600);
+    scene.medium.gaussians = {{.center = {0.2, 0.1, 0}, .radius = 0.6, .extinction = 0.8}};
+    EXPECT_NE(beauty(renderer, scene, "on", technique).values, beauty(renderer, scene, "off", technique).values) << technique;
+    EXPECT_NE(explain(scene, settings).find("shadow_planes"), std::string::npos) << explain(scene, settings);
+    for (Surface& s : scene.surfaces) s.casts_shadow = false;
+    EXPECT_EQ(beauty(renderer, scene, "on", technique).values, beauty(renderer, scene, "off", technique).values) << technique;
+    EXPECT_NE(explain(scene, settings).find("shadow planes: nothing casts a shadow"), std::string::npos)
+        << explain(scene, settings);
+    // Far above the lamp: no ray crosses its planes.
+    scene.lights.resize(1);
+    scene.surfaces[1].casts_shadow = true;
+    scene.surfaces[1].transform[3] = {0, 50, 0, 1};
+    EXPECT_NE(explain(scene, settings).find("shadow_planes"), std::string::npos) << explain(scene, settings);
+    EXPECT_EQ(beauty(renderer, scene, "on", technique).values, beauty(renderer, scene, "off", technique).values) << technique;
+  }
 }
 
 TEST_P(ShadowSkips, LightsOfNoPowerThrowNoShadow) {
