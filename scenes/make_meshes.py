@@ -251,10 +251,187 @@ def cathedral(folder):
         mesh.write(folder / "cathedral" / f"{name}.obj")
 
 
+def lattice_lamp(folder):
+    """A pierced lantern on tiles in the corner of two walls, beside a pot and two balls."""
+    shell, frame, props, walls = Mesh(), Mesh(), Mesh(), Mesh()
+    tiles = Mesh(), Mesh()
+    across, rows, low, high = 20, 10, 0.14, 0.74
+
+    def place(s, t):  # on the shell; s counts cells around, t rows
+        h = min(max(t / rows, 0), 1)
+        radius = 0.115 + 0.15 * math.sin(math.pi * h ** 0.85) ** 0.9
+        angle = 2 * math.pi * s / across
+        return radius * math.cos(angle), low + (high - low) * h, radius * math.sin(angle)
+
+    for row in range(rows + 1):
+        for cell in range(across):
+            middle = cell + row % 2 / 2
+            corners = [(0.5, 0.0), (0.0, 1.0), (-0.5, 0.0), (0.0, -1.0)]
+
+            def corner(s, t):
+                return s, 2 * t, place(middle + s, row + t)
+            outer = [corner(s, t) for s, t in corners]
+            if row in (0, rows):
+                shell.face(*[p[2] for p in outer if row + p[1] / 2 >= 0 and row + p[1] / 2 <= rows])
+                continue
+            points = 16 if row % 2 == 0 else 12
+            hole = []
+            for k in range(points):
+                angle, size = 2 * math.pi * k / points, 0.3 if k % 2 == 0 else 0.19
+                if row % 2 == 1:
+                    size = 0.31 if k % 2 == 0 else 0.15
+                hole.append(corner(size * math.cos(angle), size * math.sin(angle) * 1.5))
+            shell.ring(outer, hole)
+    frame.lathe([(0.2, -0.01), (0.2, 0.03), (0.1, 0.06), (0.09, 0.1), (0.125, 0.13), (0.125, 0.15)], 32)
+    frame.lathe([(0.125, 0.735), (0.14, 0.745), (0.14, 0.765), (0.1, 0.83), (0.04, 0.87), (0.022, 0.9), (0.035, 0.925), (0.004, 0.98)], 32)
+    frame.bar([(0.06 * math.cos(math.pi * k / 10), 1.03 + 0.06 * math.sin(math.pi * k / 10), 0) for k in range(20)], (0, 0, 1), 0.014, 0.014, True)
+
+    props.lathe([(0.1, -0.01), (0.17, 0.1), (0.2, 0.22), (0.17, 0.33), (0.09, 0.42), (0.075, 0.48), (0.1, 0.53)], 32, (-0.78, 0, -0.35))
+    for radius, x, z in ((0.12, 0.62, 0.22), (0.075, 0.42, 0.48)):
+        ball = [(radius * math.sin(math.pi * k / 12), radius - radius * math.cos(math.pi * k / 12)) for k in range(13)]
+        props.lathe([(max(r, 0.001), y) for r, y in ball], 24, (x, 0, z))
+    back, left = -1.0, -1.6
+    walls.face((left, 0, back), (4, 0, back), (4, 3, back), (left, 3, back))
+    walls.face((left, 0, back), (left, 3, back), (left, 3, 4), (left, 0, 4))
+    for i in range(16):
+        for j in range(14):
+            x, z = left + 0.35 * i, back + 0.35 * j
+            tiles[(i + j) % 2].face((x, 0, z), (x, 0, z + 0.35), (x + 0.35, 0, z + 0.35), (x + 0.35, 0, z))
+    for name, mesh in (("shell", shell), ("frame", frame), ("props", props), ("walls", walls), ("tiles_light", tiles[0]), ("tiles_dark", tiles[1])):
+        mesh.write(folder / "lattice_lamp" / f"{name}.obj")
+
+
+def street_night(folder):
+    """A street from z = 8 to z = -52 between two rows of gabled houses, with street lamps, a tree, benches, a car and one who walks."""
+    random.seed(5)
+    walls = Mesh(), Mesh(), Mesh()
+    roofs, panes, ground, road, iron, wood, car, walker = Mesh(), Mesh(), Mesh(), Mesh(), Mesh(), Mesh(), Mesh(), Mesh()
+    kerb, front, depth = 3.6, 6.2, 9.0
+
+    def house(side, z, width, floors, wall, lit):
+        """Its front at x = side * front from z to z - width; the windows of `lit` (bay, floor) are open to the room behind."""
+        bays = max(2, round(width / 2.2))
+        pitch, storey = width / bays, 3.0
+        eaves = 0.5 + storey * floors
+
+        def place(s, y, d):
+            return side * (front + d), y, z - s
+        for floor in range(floors):
+            for b in range(bays):
+                half, sill, head = (0.5, 0.95, 2.4) if floor or b else (0.55, 0.0, 2.3)
+                base = 0.3 + storey * floor
+
+                def shifted(s, y, d, base=base):
+                    return place(s, base + y, d)
+                low, middle = b * pitch, (b + 0.5) * pitch
+                panel(wall, shifted, low, low + pitch, storey, middle, [(0.0, opening(half, max(sill, 0.02), head)), (0.25, opening(half, max(sill, 0.02), head))])
+                if (b, floor) not in lit:
+                    panes.face(*[shifted(middle + x, y, 0.2) for x, y in ((-half - 0.05, -0.05), (half + 0.05, -0.05), (half + 0.05, head + 0.05), (-half - 0.05, head + 0.05))])
+                    if not lit:
+                        panes.face(*[shifted(middle + x, y, 0.24) for x, y in ((-half - 0.05, -0.05), (half + 0.05, -0.05), (half + 0.05, head + 0.05), (-half - 0.05, head + 0.05))])
+                if sill > 0:
+                    wood.bar([shifted(middle, sill - 0.1, 0.14), shifted(middle, head + 0.1, 0.14)], (1, 0, 0), 0.05, 0.06)
+                    wood.bar([shifted(middle - half - 0.1, 1.85, 0.14), shifted(middle + half + 0.1, 1.85, 0.14)], (1, 0, 0), 0.05, 0.06)
+                    wood.bar([shifted(middle - half - 0.12, sill - 0.06, -0.03), shifted(middle + half + 0.12, sill - 0.06, -0.03)], (1, 0, 0), 0.16, 0.12)
+        back = front + depth
+        ridge = eaves + 0.42 * depth
+        gable = [(front, -0.2), (front, eaves - 0.2), ((front + back) / 2, ridge - 0.2), (back, eaves - 0.2), (back, -0.2)]
+        for s in (z, z - width):
+            wall.face(*[(side * x, y, s) for x, y in gable])
+        wall.face(*[(side * back, y, s) for y, s in ((-0.2, z), (eaves, z), (eaves, z - width), (-0.2, z - width))])
+        wall.face(*[(side * (front + 0.001), y, s) for y, s in ((-0.2, z), (0.31, z), (0.31, z - width), (-0.2, z - width))])
+        slope = [(front - 0.45, eaves - 0.42), ((front + back) / 2, ridge), (back + 0.45, eaves - 0.42)]
+        roofs.bar([(side * x, y, z - width / 2) for x, y in slope], (0, 0, 1), width + 0.12, 0.22)
+        chimney = side * (front + depth * 0.3)
+        roofs.box((chimney - 0.35, eaves, z - width * 0.3 - 0.4), (chimney + 0.35, ridge + 0.9, z - width * 0.3 + 0.4))
+
+    for side in (-1, 1):
+        z, k = 10.0, 0
+        while z > -56:
+            width = random.choice((6.6, 8.8, 6.6))
+            lit = ()
+            if side == 1 and k == 2:
+                lit = ((1, 1), (2, 1), (1, 0))
+            house(side, z, width, random.choice((2, 3, 2)) if not lit else 2, walls[(2 * k + (side > 0)) % 3], lit)
+            z, k = z - width - 0.02, k + 1
+    far = z
+    road.face((-kerb, 0, 14), (kerb, 0, 14), (kerb, 0, far), (-kerb, 0, far))
+    for side in (-1, 1):
+        x0, x1 = sorted((side * kerb, side * (front + depth)))
+        ground.face((x0, 0.14, 14), (x1, 0.14, 14), (x1, 0.14, far), (x0, 0.14, far))
+        ground.face((side * kerb, -0.1, 14), (side * kerb, 0.14, 14), (side * kerb, 0.14, far), (side * kerb, -0.1, far))
+
+    post = Mesh()
+    post.lathe([(0.2, 0.1), (0.2, 0.45), (0.11, 0.6), (0.07, 0.75), (0.055, 3.3), (0.1, 3.36), (0.1, 3.42), (0.05, 3.5), (0.13, 3.56), (0.13, 3.6)], 10)
+    post.lathe([(0.34, 4.18), (0.36, 4.22), (0.12, 4.48), (0.05, 4.5), (0.06, 4.58), (0.01, 4.7)], 6)
+    for k in range(6):
+        p = 2 * math.pi * (k + 0.5) / 6
+        post.tube((0.12 * math.cos(p), 3.57, 0.12 * math.sin(p)), (0.32 * math.cos(p), 4.2, 0.32 * math.sin(p)), 0.014, 0.014, 4)
+    for x, z in STREET_LAMPS:
+        iron.put(post, (x, 0, z))
+
+    bench = Mesh()
+    for k in range(4):
+        bench.box((-0.8, 0.44, -0.2 + 0.11 * k), (0.8, 0.47, -0.11 + 0.11 * k))
+    for k in range(3):
+        bench.box((-0.8, 0.58 + 0.13 * k, -0.26 - 0.02 * k), (0.8, 0.68 + 0.13 * k, -0.235 - 0.02 * k))
+    for x in (-0.65, 0.65):
+        bench.box((x - 0.03, -0.1, -0.2), (x + 0.03, 0.45, 0.2))
+        bench.bar([(x, 0.3, -0.2), (x, 0.98, -0.33)], (1, 0, 0), 0.05, 0.04)
+    for x, z, turn in ((4.9, -3.4, -90), (-5.3, -13.0, 90)):
+        wood.put(bench, (x, 0.14, z), turn)
+
+    def branch(a, way, length, radius, level):
+        b = add(a, way, length)
+        wood.tube(a, b, radius, radius * 0.7, 7 if level < 2 else 4)
+        if level == 5:
+            return
+        for k in range(3 if level in (1, 3) else 2):
+            turn = tuple(random.uniform(-1, 1) for _ in range(3))
+            wider = unit(add(add(way, turn, 0.62), (0, 0.16, 0)))
+            branch(add(b, way, -0.05 * length), wider, length * random.uniform(0.66, 0.85), radius * 0.66, level + 1)
+    branch((-4.75, 0.0, -1.6), (0.03, 1, 0), 1.7, 0.15, 0)
+
+    outline = [(-2.1, 0.35), (-2.15, 0.75), (-1.95, 0.95), (-1.0, 1.0), (-0.45, 1.45), (0.9, 1.48), (1.5, 1.02), (2.1, 0.95), (2.2, 0.6), (2.15, 0.35)]
+    body = Mesh()
+    for side in (-1, 1):
+        flank = [(side * (0.82 if y < 1.1 else 0.62), y, z) for z, y in outline]
+        for k in range(len(flank) - 1):
+            body.face((side * 0.82, 0.35, 0), flank[k], flank[k + 1])
+    sides = [[(side * (0.82 if y < 1.1 else 0.62), y, z) for z, y in outline] for side in (-1, 1)]
+    body.strip(*sides, closed=True)
+    for x in (-0.72, 0.72):
+        for z in (-1.35, 1.35):
+            body.tube((x - 0.12, 0.33, z), (x + 0.12, 0.33, z), 0.33, 0.33, 16)
+    for x in (-0.58, 0.58):  # a reflector that is open in front
+        low, high = (x - 0.13, 0.6, 2.12), (x + 0.13, 0.82, 2.42)
+        rim = [[(px, py, z) for px, py in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1]))] for z in (low[2], high[2])]
+        body.strip(*rim, closed=True)
+        body.face(*rim[0])
+    car.put(body, CAR[0], CAR[1])
+
+    walker.lathe([(0.1, 0.0), (0.12, 0.08), (0.09, 0.5), (0.1, 0.8)], 8, (-0.02, 0, -0.17))
+    walker.lathe([(0.1, 0.0), (0.12, 0.08), (0.09, 0.5), (0.1, 0.8)], 8, (0.03, 0, 0.2))
+    walker.lathe([(0.34, 0.5), (0.27, 0.9), (0.21, 1.15), (0.24, 1.38), (0.17, 1.48), (0.06, 1.53), (0.06, 1.58)], 12)
+    walker.lathe([(0.04, 1.54), (0.1, 1.6), (0.115, 1.7), (0.17, 1.73), (0.17, 1.75), (0.11, 1.76), (0.1, 1.86), (0.02, 1.87)], 12)
+    person = Mesh()
+    person.put(walker, WALKER, 60)
+    for name, mesh in (("walls_0", walls[0]), ("walls_1", walls[1]), ("walls_2", walls[2]), ("roofs", roofs), ("panes", panes), ("pavement", ground),
+                       ("road", road), ("iron", iron), ("wood", wood), ("car", car), ("walker", person)):
+        mesh.write(folder / "street_night" / f"{name}.obj")
+
+
+STREET_LAMPS = (4.2, -6.0), (-4.2, -6.0), (4.2, -20.0), (-4.2, -20.0), (4.2, -36.0), (-4.2, -36.0)
+CAR = (-1.7, 0.0, -20.0), 4.0
+WALKER = (0.2, 0.0, -9.5)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
     folder = folder if len(sys.argv) > 1 else folder.parent
     cathedral(folder)
+    lattice_lamp(folder)
+    street_night(folder)
 
 
 if __name__ == "__main__":
