@@ -312,7 +312,7 @@ def street_night(folder):
         """Its front at x = side * front from z to z - width; the windows of `lit` (bay, floor) are open to the room behind."""
         bays = max(2, round(width / 2.2))
         pitch, storey = width / bays, 3.0
-        eaves = 0.5 + storey * floors
+        eaves = 0.4 + storey * floors
 
         def place(s, y, d):
             return side * (front + d), y, z - s
@@ -324,18 +324,18 @@ def street_night(folder):
                 def shifted(s, y, d, base=base):
                     return place(s, base + y, d)
                 low, middle = b * pitch, (b + 0.5) * pitch
-                panel(wall, shifted, low, low + pitch, storey, middle, [(0.0, opening(half, max(sill, 0.02), head)), (0.25, opening(half, max(sill, 0.02), head))])
+                outline = opening(half, max(sill, 0.02), head)
+                panel(wall, shifted, low, low + pitch, storey, middle, [(0.0, outline), (0.25, outline)])
                 if (b, floor) not in lit:
-                    panes.face(*[shifted(middle + x, y, 0.2) for x, y in ((-half - 0.05, -0.05), (half + 0.05, -0.05), (half + 0.05, head + 0.05), (-half - 0.05, head + 0.05))])
-                    if not lit:
-                        panes.face(*[shifted(middle + x, y, 0.24) for x, y in ((-half - 0.05, -0.05), (half + 0.05, -0.05), (half + 0.05, head + 0.05), (-half - 0.05, head + 0.05))])
+                    pane = [(-half - 0.05, sill - 0.05), (half + 0.05, sill - 0.05), (half + 0.05, head + 0.05), (-half - 0.05, head + 0.05)]
+                    panes.face(*[shifted(middle + x, y, 0.2) for x, y in pane])
                 if sill > 0:
                     wood.bar([shifted(middle, sill - 0.1, 0.14), shifted(middle, head + 0.1, 0.14)], (1, 0, 0), 0.05, 0.06)
                     wood.bar([shifted(middle - half - 0.1, 1.85, 0.14), shifted(middle + half + 0.1, 1.85, 0.14)], (1, 0, 0), 0.05, 0.06)
                     wood.bar([shifted(middle - half - 0.12, sill - 0.06, -0.03), shifted(middle + half + 0.12, sill - 0.06, -0.03)], (1, 0, 0), 0.16, 0.12)
         back = front + depth
         ridge = eaves + 0.42 * depth
-        gable = [(front, -0.2), (front, eaves - 0.2), ((front + back) / 2, ridge - 0.2), (back, eaves - 0.2), (back, -0.2)]
+        gable = [(front, -0.2), (front, eaves - 0.04), ((front + back) / 2, ridge - 0.02), (back, eaves - 0.04), (back, -0.2)]
         for s in (z, z - width):
             wall.face(*[(side * x, y, s) for x, y in gable])
         wall.face(*[(side * back, y, s) for y, s in ((-0.2, z), (eaves, z), (eaves, z - width), (-0.2, z - width))])
@@ -351,9 +351,9 @@ def street_night(folder):
             width = random.choice((6.6, 8.8, 6.6))
             lit = ()
             if side == 1 and k == 2:
-                lit = ((1, 1), (2, 1), (1, 0))
+                lit = ((0, 1), (1, 1), (2, 1), (1, 0), (2, 0))
             house(side, z, width, random.choice((2, 3, 2)) if not lit else 2, walls[(2 * k + (side > 0)) % 3], lit)
-            z, k = z - width - 0.02, k + 1
+            z, k = z - width, k + 1
     far = z
     road.face((-kerb, 0, 14), (kerb, 0, 14), (kerb, 0, far), (-kerb, 0, far))
     for side in (-1, 1):
@@ -390,7 +390,7 @@ def street_night(folder):
             turn = tuple(random.uniform(-1, 1) for _ in range(3))
             wider = unit(add(add(way, turn, 0.62), (0, 0.16, 0)))
             branch(add(b, way, -0.05 * length), wider, length * random.uniform(0.66, 0.85), radius * 0.66, level + 1)
-    branch((-4.75, 0.0, -1.6), (0.03, 1, 0), 1.7, 0.15, 0)
+    branch((-4.7, 0.0, -2.0), (0.03, 1, 0), 1.7, 0.15, 0)
 
     outline = [(-2.1, 0.35), (-2.15, 0.75), (-1.95, 0.95), (-1.0, 1.0), (-0.45, 1.45), (0.9, 1.48), (1.5, 1.02), (2.1, 0.95), (2.2, 0.6), (2.15, 0.35)]
     body = Mesh()
@@ -415,15 +415,15 @@ def street_night(folder):
     walker.lathe([(0.34, 0.5), (0.27, 0.9), (0.21, 1.15), (0.24, 1.38), (0.17, 1.48), (0.06, 1.53), (0.06, 1.58)], 12)
     walker.lathe([(0.04, 1.54), (0.1, 1.6), (0.115, 1.7), (0.17, 1.73), (0.17, 1.75), (0.11, 1.76), (0.1, 1.86), (0.02, 1.87)], 12)
     person = Mesh()
-    person.put(walker, WALKER, 60)
+    person.put(walker, WALKER, 75)
     for name, mesh in (("walls_0", walls[0]), ("walls_1", walls[1]), ("walls_2", walls[2]), ("roofs", roofs), ("panes", panes), ("pavement", ground),
                        ("road", road), ("iron", iron), ("wood", wood), ("car", car), ("walker", person)):
         mesh.write(folder / "street_night" / f"{name}.obj")
 
 
-STREET_LAMPS = (4.2, -6.0), (-4.2, -6.0), (4.2, -20.0), (-4.2, -20.0), (4.2, -36.0), (-4.2, -36.0)
-CAR = (-1.7, 0.0, -20.0), 4.0
-WALKER = (0.2, 0.0, -9.5)
+STREET_LAMPS = (4.2, -12.0), (-4.2, -4.5), (4.2, -27.0), (-4.2, -19.5), (-4.2, -36.0)
+CAR = (-1.6, 0.0, -13.5), -3.0
+WALKER = (-0.4, 0.0, -6.2)
 
 
 def main():
