@@ -3,8 +3,8 @@
     python3 scenes/make_meshes [FOLDER]      # FOLDER is scenes/ unless said
 
 Nothing but Python is needed. Metres, +Y up. Solids that meet run into each other, so that no light leaks between them, and no two
-faces that can be seen lie in one plane; triangles that share an edge share its vertices, so that most
-edges cancel in a silhouette.
+faces that can be seen lie in one plane; triangles that share an edge share its vertices, so that most edges cancel in a
+silhouette.
 """
 import pathlib
 import sys

@@ -105,16 +105,14 @@ class Mesh:
                 face.append(index[key])
             if len(set(face)) == 3:
                 faces.append("f {} {} {}".format(*face))
-        path.write_text("\n".join([f"# Made by scenes/make_meshes"] + vertices + faces) + "\n")
+        path.write_text("\n".join(["# Made by scenes/make_meshes"] + vertices + faces) + "\n")
         print(f"{path}: {len(faces)} triangles, {path.stat().st_size / 1000:.0f} kB")
 
 
 def arch(half, rise, n):
     """The left arc of a pointed arch, from (-half, 0) to (0, rise): (x, y)."""
     radius = (half * half + rise * rise) / (2 * half)
-    end = math.asin(min(rise / radius, 1))
-    if half < radius and rise > radius:
-        end = math.pi - end
+    end = math.atan2(rise, radius - half)
     return [(radius - half - radius * math.cos(end * k / n), radius * math.sin(end * k / n)) for k in range(n)] + [(0.0, rise)]
 
 
@@ -129,8 +127,8 @@ def opening(half, sill, spring, rise=0.0, n=6):
 
 
 def panel(mesh, place, low, high, top, middle, holes):
-    """A wall from s = low to high and y = 0 to top with one window about s = middle. `holes`: (depth, outline of the window) of
-    each of its two faces. `place` maps (s, y, depth) to a point."""
+    """A wall from s = low to high and y = 0 to top with one window about s = middle. `holes`: for each of its two faces a depth
+    and the outline of the window. `place` maps (s, y, depth) to a point."""
     rims = []
     for depth, outline in holes:
         def at(s, y, depth=depth):
