@@ -39,7 +39,9 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_everywhere", 0.01,
      "the same with edges: vertices are rounded to 1/256 pixel, so a pixel at an edge may show its other side"},
     {"truth_marching", 0.015,
-     "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path"},
+     "the same of marching by default, 32 steps; 512 in dense fog, where a step must not be long beside the free path, and 128 "
+     "where a "
+     "lamp stands in a Gaussian little larger than one of 32 steps"},
     {"truth_gaussians", 0.02, "relative RMSE of gaussian-airlight by default, four nodes a panel: what the knob promises"},
     {"truth_gaussians_fine", 0.002, "the same with eight nodes"},
     {"truth_airlight_everywhere", 0.002,

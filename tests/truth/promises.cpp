@@ -89,6 +89,7 @@ TEST(Choose, NeverTakesThePublishedOrder) {
   ASSERT_TRUE(scene.surfaces[0].casts_shadow);
   const auto shadows_of = [&](const Goal& goal) {
     RenderSettings settings;
+    settings.technique = "shadow-planes";
     settings.goal = goal;
     const std::string told = explain(scene, settings), name = "shadows = ";
     return told.substr(told.find(name) + name.size(), 2);
@@ -101,7 +102,7 @@ TEST(Choose, NeverTakesThePublishedOrder) {
   scene.settings = {{"shadows", "published"}};
   for (const Goal& goal : {rough, fast}) {
     try {
-      choose(scene, extent, goal, "", 2);
+      choose(scene, extent, goal, "shadow-planes", 2);
       FAIL();
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("shadow-planes: how large its error is"), std::string::npos) << error.what();
