@@ -4,10 +4,10 @@ from mesh import Mesh, add, arch, opening, panel, pointed, unit
 
 
 def floor(tiles, west):
-    """Squares of 1.4 m, in turn in one mesh and in the other."""
-    for i in range(12):
-        for j in range(34):
-            x, z = -8.4 + 1.4 * i, west - 1.4 * j
+    """Squares of 1.4 m, in turn in one mesh and in the other; they end within the walls."""
+    for i in range(13):
+        for j in range(35):
+            x, z = -9.1 + 1.4 * i, west - 1.4 * j
             tiles[(i + j) % 2].face((x, 0, z), (x + 1.4, 0, z), (x + 1.4, 0, z - 1.4), (x, 0, z - 1.4))
 
 

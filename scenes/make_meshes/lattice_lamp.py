@@ -46,10 +46,10 @@ def lattice_lamp():
         ball = [(radius * math.sin(math.pi * k / 12), radius - radius * math.cos(math.pi * k / 12)) for k in range(13)]
         props.lathe([(max(r, 0.001), y) for r, y in ball], 24, (x, 0, z))
     back, left = -1.0, -1.6
-    walls.face((left, 0, back), (4, 0, back), (4, 3, back), (left, 3, back))
-    walls.face((left, 0, back), (left, 3, back), (left, 3, 4), (left, 0, 4))
+    walls.face((left, -0.1, back), (4, -0.1, back), (4, 3, back), (left, 3, back))
+    walls.face((left, -0.1, back), (left, 3, back), (left, 3, 4), (left, -0.1, 4))
     for i in range(16):
         for j in range(14):
-            x, z = left + 0.35 * i, back + 0.35 * j
+            x, z = left - 0.1 + 0.35 * i, back - 0.1 + 0.35 * j
             tiles[(i + j) % 2].face((x, 0, z), (x, 0, z + 0.35), (x + 0.35, 0, z + 0.35), (x + 0.35, 0, z))
     return {"shell": shell, "frame": frame, "props": props, "walls": walls, "tiles_light": tiles[0], "tiles_dark": tiles[1]}

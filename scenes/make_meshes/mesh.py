@@ -35,8 +35,9 @@ class Mesh:
                          [(math.atan2(p[1], p[0]), 1, k) for k, p in enumerate(inner)])
         at = [max(c for c in corners if c[1] == side)[2] for side in (0, 1)]
         for _, side, k in corners:
-            both = (outer, inner)
-            self.triangles.append((both[side][at[side]][2], both[side][k][2], both[1 - side][at[1 - side]][2]))
+            before, other = (outer, inner)[side][at[side]][2], (inner, outer)[side][at[1 - side]][2]
+            here = (outer, inner)[side][k][2]
+            self.triangles.append((before, here, other) if side == 0 else (here, before, other))  # turned alike
             at[side] = k
 
     def box(self, low, high):
@@ -126,9 +127,10 @@ def opening(half, sill, spring, rise=0.0, n=6):
     return [(-half, sill)] + ([(x, spring + y) for x, y in arch(half, rise, n)] if rise > 0 else [(-half, spring)])
 
 
-def panel(mesh, place, low, high, top, middle, holes):
+def panel(mesh, place, low, high, top, middle, holes, base=0.0):
     """A wall from s = low to high and y = 0 to top with one window about s = middle. `holes`: for each of its two faces a depth
-    and the outline of the window. `place` maps (s, y, depth) to a point."""
+    and the outline of the window. `place` maps (s, y, depth) to a point. The vertices at its sides, as high as those of the
+    outline and at y = base, are to be those of its neighbours: between others a rasteriser leaves cracks."""
     rims = []
     for depth, outline in holes:
         def at(s, y, depth=depth):
@@ -137,7 +139,10 @@ def panel(mesh, place, low, high, top, middle, holes):
         for side, rim in ((low, left), (high, right)):
             mesh.strip([at(side, y) for _, y in outline], rim)
         bottom, head = outline[0][1], outline[-1][1]
-        mesh.face(at(low, 0), at(high, 0), at(high, bottom), right[0], left[0], at(low, bottom))
+        if base > 0:
+            mesh.face(at(low, 0), at(high, 0), at(high, base), at(low, base))
+        if bottom > base:
+            mesh.face(at(low, base), at(high, base), at(high, bottom), right[0], left[0], at(low, bottom))
         over = [left[-1]] if outline[-1][0] == 0 else [left[-1], right[-1]]
         mesh.face(at(low, top), at(low, head), *over, at(high, head), at(high, top))
         rims.append(left + right[::-1][1 if outline[-1][0] == 0 else 0:])

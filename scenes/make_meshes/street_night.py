@@ -4,6 +4,7 @@ import random
 from mesh import Mesh, add, opening, panel, unit
 
 KERB, FRONT, DEPTH, STOREY = 3.6, 6.2, 9.0, 3.0  # the first three are distances from the middle of the street
+BASE, SILL = 0.02, 0.95  # of doors and of windows, above the floor
 LAMPS = (4.2, -12.0), (-4.2, -4.5), (4.2, -27.0), (-4.2, -19.5), (-4.2, -36.0)  # (x, z)
 
 
@@ -15,16 +16,19 @@ def house(wall, roof, glass, wood, side, z, width, floors, lit):
     def place(s, y, d):
         return side * (FRONT + d), 0.3 + y, z - s
     for bay, floor in ((b, f) for f in range(floors) for b in range(bays)):
-        half, sill, head = (0.5, 0.95, 2.4) if floor or bay else (0.55, 0.02, 2.3)  # a window or the door
+        is_door, head = floor == 0 and bay == 0, 2.4
+        half, sill = (0.55, BASE) if is_door else (0.5, SILL)
 
         def at(s, y, d, base=STOREY * floor):
             return place(s, base + y, d)
-        middle, outline = (bay + 0.5) * pitch, opening(half, sill, head)
-        panel(wall, at, bay * pitch, (bay + 1) * pitch, STOREY, middle, [(0.0, outline), (0.25, outline)])
+        middle, outline = (bay + 0.5) * pitch, opening(half, SILL, head)
+        if is_door:
+            outline = [(-half, sill)] + outline
+        panel(wall, at, bay * pitch, (bay + 1) * pitch, STOREY, middle, [(0.0, outline), (0.25, outline)], BASE)
         if (bay, floor) not in lit:
             a, b = half + 0.05, (sill - 0.05, head + 0.05)
             glass.face(*[at(middle + x, y, 0.2) for x, y in ((-a, b[0]), (a, b[0]), (a, b[1]), (-a, b[1]))])
-        if floor or bay:
+        if not is_door:
             wood.bar([at(middle, sill - 0.1, 0.14), at(middle, head + 0.1, 0.14)], (1, 0, 0), 0.05, 0.06)
             for reach, y, d, size in ((0.1, 1.85, 0.14, (0.05, 0.06)), (0.12, sill - 0.06, -0.03, (0.16, 0.12))):
                 wood.bar([at(middle - half - reach, y, d), at(middle + half + reach, y, d)], (1, 0, 0), *size)
