@@ -35,6 +35,7 @@ Case scatter(Extent extent, const Parts& parts) {
   }
   const Image total{{5}, Format::rgb32f, extent, 1, true};
   const Image through{{6}, Format::r32f, extent, 1, true};
+  const bool layers = parts.parts && !lights.empty();
   const Image each{{7}, Format::rgb32f, extent, std::max(1, static_cast<int>(lights.size())), true};
   const Image depth{{8}, Format::r32f, extent, 1, true};
   c.steps = {{GaussianAirlight{.distance = surfaces.distance,
@@ -51,12 +52,13 @@ Case scatter(Extent extent, const Parts& parts) {
                                .emission = {0.003F, 0.002F, 0.001F},
                                .samples = parts.samples,
                                .airlight = total,
-                               .per_light = parts.parts ? each : Image{},
+                               .per_light = layers ? each : Image{},
                                .transmittance = through,
                                .optical_depth = parts.parts ? depth : Image{}},
               ""}};
   c.results = {{"airlight", total}, {"transmittance", through}};
-  if (parts.parts) c.results.insert(c.results.end(), {{"per_light", each}, {"optical_depth", depth}});
+  if (layers) c.results.emplace_back("per_light", each);
+  if (parts.parts) c.results.emplace_back("optical_depth", depth);
   return c;
 }
 
