@@ -7,11 +7,13 @@ namespace airlight {
 
 namespace {
 
-Case frame(const Scene& scene, Extent extent, const Technique& technique = shadow_planes()) {
+using Set = std::vector<std::pair<std::string, std::string>>;
+
+Case frame(const Scene& scene, Extent extent, const Technique& technique = shadow_planes(), const Set& set = {}) {
   FrameRequest request;
   request.extent = extent;
   request.images = {"beauty", "surface", "airlight", "depth"};
-  request.knobs = KnobValues(technique.knobs, {});
+  request.knobs = KnobValues(technique.knobs, set);
   const Plan plan = technique.plan(scene, request);
   Case c;
   for (const Plan::Upload& upload : plan.uploads) c.buffers.emplace_back(upload.buffer, upload.make());
@@ -42,8 +44,8 @@ Scene torus_among_gaussians() {
   }
   return scene;
 }
-Case shadows_in_gaussians(Extent e) { return frame(torus_among_gaussians(), e, gaussian_airlight()); }
-Case marched_shadows(Extent e) { return frame(torus_among_gaussians(), e, marching()); }
+Case shadows_in_gaussians(Extent e) { return frame(torus_among_gaussians(), e, gaussian_airlight(), {{"samples", "3"}}); }
+Case marched_shadows(Extent e) { return frame(torus_among_gaussians(), e, marching(), {{"steps", "6"}}); }
 
 }  // namespace
 
