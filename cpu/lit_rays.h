@@ -40,11 +40,16 @@ struct LitRays {
       const LitParts& l = lights[k];
       float* to = floats + scratch.first[k] * floats_a_part;
       for (std::uint32_t n = 0; n < scratch.first[k + 1] - scratch.first[k]; ++n, to += floats_a_part) {
+        if (l.rays == LitParts::Rays::lit) {  // all of every ray
+          store(0.0, to);
+          store(beyond, to + lanes);
+          continue;
+        }
+        const std::uint32_t* first = l.first_part.data() + i;
         for (int lane = 0; lane < lanes; ++lane) {
-          const bool mixed = l.rays == LitParts::Rays::mixed;
-          const std::uint32_t part = mixed ? l.first_part[static_cast<std::size_t>(i + lane)] + n : 0;
-          const bool there = mixed && part < l.first_part[static_cast<std::size_t>(i + lane) + 1];
-          to[lane] = there ? l.from[part] : mixed ? beyond : 0;
+          const std::uint32_t part = first[lane] + n;
+          const bool there = part < first[lane + 1];
+          to[lane] = there ? l.from[part] : beyond;
           to[lanes + lane] = there ? l.to[part] : beyond;
         }
       }
@@ -72,10 +77,8 @@ struct LitRays {
   HWY_INLINE static std::uint32_t most_parts(const LitParts& l, int i) {
     if (l.rays != LitParts::Rays::mixed) return l.rays == LitParts::Rays::lit ? 1 : 0;
     std::uint32_t most = 0;
-    for (int lane = 0; lane < lanes; ++lane) {
-      const auto pixel = static_cast<std::size_t>(i + lane);
-      most = std::max(most, l.first_part[pixel + 1] - l.first_part[pixel]);
-    }
+    const std::uint32_t* first = l.first_part.data() + i;
+    for (int lane = 0; lane < lanes; ++lane) most = std::max(most, first[lane + 1] - first[lane]);
     return most;
   }
 };

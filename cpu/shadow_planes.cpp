@@ -142,9 +142,8 @@ static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::siz
   for (int i = 0; i < tile_pixels; i += lanes) {
     std::uint32_t parts = whole ? 1 : 0;
     if (!whole) {
-      for (int lane = 0; lane < lanes; ++lane)
-        parts = std::max(parts,
-                         c.first_part[static_cast<std::size_t>(i + lane) + 1] - c.first_part[static_cast<std::size_t>(i + lane)]);
+      const std::uint32_t* first = c.first_part.data() + i;
+      for (int lane = 0; lane < lanes; ++lane) parts = std::max(parts, first[lane + 1] - first[lane]);
     }
     Real sum = 0.0;
     if (parts > 0 && a.extinction > 0) {
@@ -158,9 +157,10 @@ static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::siz
       for (std::uint32_t k = 0; k < parts; ++k) {
         Real x0 = 0.0, x1 = length;
         if (!whole) {
+          const std::uint32_t* first = c.first_part.data() + i;
           for (int lane = 0; lane < lanes; ++lane) {
-            const std::uint32_t part = c.first_part[static_cast<std::size_t>(i + lane)] + k;
-            const bool there = part < c.first_part[static_cast<std::size_t>(i + lane) + 1];
+            const std::uint32_t part = first[lane] + k;
+            const bool there = part < first[lane + 1];
             from[lane] = there ? c.from[part] : 0;
             to[lane] = there ? c.to[part] : 0;
           }

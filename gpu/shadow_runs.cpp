@@ -64,15 +64,16 @@ class ShadowRuns {
     const Extent extent = extent_;
     const int columns = (extent.width + side - 1) / side, rows = (extent.height + side - 1) / side;
     for (int row = 0; row < rows; ++row) {
+      const auto tile = [&](int column) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+      };
       for (int column = 0; column < columns;) {
         RunOfTiles run;
         run.first = column;
         do {
-          run.add(quads, static_cast<std::size_t>(row * columns + column), column * side, row * side);
+          run.add(quads, tile(column), column * side, row * side);
           ++column;
-        } while (column < columns &&
-                 run.bytes() + 3 * sizeof(glm::vec4) * quads.of_tile(static_cast<std::size_t>(row * columns + column)).size() <=
-                     limit_ &&
+        } while (column < columns && run.bytes() + 3 * sizeof(glm::vec4) * quads.of_tile(tile(column)).size() <= limit_ &&
                  list_bytes(run.count + 1) <= limit_);
         if (run.bytes() > limit_)
           throw MachineError("shadow planes: this OpenGL's storage buffers cannot hold the planes of one tile");
@@ -83,8 +84,7 @@ class ShadowRuns {
           if (fit == 0) throw MachineError("shadow planes: this OpenGL's storage buffers cannot hold the crossings of one tile");
           RunOfTiles part;
           part.first = run.first;
-          for (column = run.first; part.count < fit; ++column)
-            part.add(quads, static_cast<std::size_t>(row * columns + column), column * side, row * side);
+          for (column = run.first; part.count < fit; ++column) part.add(quads, tile(column), column * side, row * side);
           run = std::move(part);
         }
       }
