@@ -54,6 +54,17 @@ Knob shadows_knob() {
           .sweep = {}};
 }
 
+double surface_nanoseconds(const Scene& scene, Extent extent, bool shadows) {
+  double triangles = 0, casting = 0;
+  for (const Surface& s : scene.surfaces) {
+    const auto count = static_cast<double>(s.mesh->triangles.size());
+    triangles += count;
+    if (s.casts_shadow && shadows) casting += count;
+  }
+  const double pixels = static_cast<double>(extent.width) * extent.height, lights = static_cast<double>(scene.lights.size());
+  return pixels * (12 + (casting > 0 ? 40 * lights : 0)) + triangles * 100 + casting * lights * 150;
+}
+
 FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
     : scene(s),
       request(r),

@@ -21,6 +21,9 @@ Knob table_nodes_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
+// Thread nanoseconds that surfaces and shadows take, whatever the technique makes of the rays between; for estimates.
+double surface_nanoseconds(const Scene&, Extent, bool shadows);
+
 class FramePlan {
  public:
   // Begins the plan: its first step is SurfaceVisibility. Scene and request must outlive this object.

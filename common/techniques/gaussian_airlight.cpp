@@ -83,7 +83,8 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
   const double pixels = static_cast<double>(extent.width) * extent.height;
-  const double nanoseconds = pixels * (12 + 20 * lights + n * met * (8 + 10 * lights));
+  const double nanoseconds =
+      surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * (25 * lights + n * met * (8 + 10 * lights));
   return {error, 1e-9 * nanoseconds / threads};
 }
 

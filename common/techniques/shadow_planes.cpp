@@ -85,17 +85,13 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
 // light.
 Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
   const double coarseness = 64 / knobs.number("table_nodes"), lights = static_cast<double>(scene.lights.size());
-  double triangles = 0, casting = 0;
-  for (const Surface& s : scene.surfaces) {
-    const auto count = static_cast<double>(s.mesh->triangles.size());
-    triangles += count;
-    if (s.casts_shadow) casting += count;
-  }
+  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                   [](const Surface& one) { return one.casts_shadow && !one.mesh->triangles.empty(); });
   const double pixels = static_cast<double>(extent.width) * extent.height;
-  const double nanoseconds = pixels * (12 + lights * (casting > 0 ? 60 : 20)) + triangles * 100 + casting * lights * 150;
+  const double nanoseconds = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * lights * 20;
   const double seconds = 1e-9 * nanoseconds / threads;
   // How far planes interleave is not known without rendering them.
-  if (casting > 0 && knobs.choice("shadows") == "published") return {std::numeric_limits<double>::infinity(), seconds};
+  if (casters && knobs.choice("shadows") == "published") return {std::numeric_limits<double>::infinity(), seconds};
   return {1e-4 + 5e-5 * coarseness * coarseness * coarseness, seconds};
 }
 
