@@ -78,7 +78,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   const double n = knobs.number("samples"), lights = static_cast<double>(scene.lights.size());
   const double gaussians = static_cast<double>(gaussians_of(scene).size());
   const double coarseness = 64 / knobs.number("table_nodes");
-  double error = 5e-5;
+  double error = 1e-4;
   if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
