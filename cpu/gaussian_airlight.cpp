@@ -6,6 +6,7 @@
 
 #include "common/formulas/float.h"
 #include "common/plan/gaussian_panels.h"
+#include "cpu/gaussian_terms.h"
 #include "cpu/held_images.h"
 #include "cpu/simd.h"
 //
@@ -13,19 +14,6 @@
 //
 #include "cpu/lit_rays.h"
 #include "cpu/medium.h"
-
-#ifndef AIRLIGHT_CPU_GAUSSIAN_TERMS
-#define AIRLIGHT_CPU_GAUSSIAN_TERMS
-namespace airlight {
-
-// What of a Gaussian is the same for all rays.
-struct GaussianTerms {
-  float inverse;  // of its radius [1/m]
-  float whole;    // optical depth of the line through its centre
-};
-
-}  // namespace airlight
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
