@@ -57,7 +57,6 @@ struct Scattering {
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
   HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE void sample_lit(const GaussianPanels::Panel& p, Real from, Real to);
-  HWY_INLINE Real closed_form(const Light& light, Real from, Real to) const;
   HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
   HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
   HWY_INLINE void panel(const GaussianPanels::Panel& p);
@@ -99,7 +98,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     Real foot, h;
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
-    store(select(h < g.reach, gaussian_falloff(inverse, h * h), 0.0), floats + lateral_at);
+    store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
     store(erf_(foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
@@ -113,7 +112,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
 HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
   const Real u = (t - load(floats + foot_at)) * terms[panels.met()[met]].inverse;
-  return load(floats + lateral_at) * max(erf_(u) - load(floats + start_at), 0.0) * 0.5;
+  return gaussian_between(load(floats + lateral_at), load(floats + start_at), erf_(u));
 }
 
 HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
@@ -184,18 +183,16 @@ HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::siz
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const Light& light = a.lights[k];
-  Real phase, strength = weight, beside = shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+  const Real more = here.depth + shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+  Real density;
   if (light.directional) {
-    phase = phase_value(kind, g, -dot(real3(light.vector), d));
+    density = directional_density(kind, g, a.extinction, -dot(real3(light.vector), d), t, more);
   } else {
     Real foot, h;
-    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-    const Real past = t - foot, squared = fma(past, past, h * h), r = sqrt(squared);
-    phase = phase_value(kind, g, -past / r);
-    strength = weight / squared;
-    beside = fma(r, a.extinction, beside);
+    beside_ray(light, d, foot, h);
+    density = airlight_density(kind, g, a.extinction, foot, h, t, more);
   }
-  const Real once = phase * strength * transmittance(fma(t, a.extinction, here.depth) + beside);
+  const Real once = weight * density;
   Real scattered[3];
   for (int c = 0; c < 3; ++c) scattered[c] = here.scattering[c] * once * light.power[c];
   add(k, scattered);
@@ -253,16 +250,6 @@ HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from
   nodes(from, to, whole, [&](std::size_t, Real t, Real weight, const Local& here) HWY_ATTR { glow(t, weight, here); });
 }
 
-// Per unit of power and albedo, where only the homogeneous part is.
-HWY_INLINE Real Scattering::closed_form(const Light& light, Real from, Real to) const {
-  const int kind = static_cast<int>(a.phase.kind);
-  const auto g = static_cast<float>(a.phase.g);
-  if (light.directional) return directional_airlight(kind, g, a.extinction, -dot(real3(light.vector), d), from, to);
-  Real foot, h;
-  perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-  return point_airlight(tables, kind, g, a.extinction, foot, h, from, to);
-}
-
 // Where only the homogeneous part is.
 HWY_INLINE void Scattering::closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going) {
   const Real through = select(going, transmittance(front), 0.0);
@@ -271,9 +258,11 @@ HWY_INLINE void Scattering::closed_forms(const GaussianPanels::Panel& p, Real fr
     const Light& light = a.lights[k];
     Real once = 0.0;
     if (!lit) {
-      once = closed_form(light, from, to);
+      once = airlight_of(light, d, tables, a.phase, a.extinction, from, to);
     } else {
-      lit.each(k, from, to, [&](Real x0, Real x1) HWY_ATTR { once += select(x0 < x1, closed_form(light, x0, x1), 0.0); });
+      lit.each(k, from, to, [&](Real x0, Real x1) HWY_ATTR {
+        once += select(x0 < x1, airlight_of(light, d, tables, a.phase, a.extinction, x0, x1), 0.0);
+      });
     }
     Real scattered[3];
     for (int c = 0; c < 3; ++c) scattered[c] = once * through * (light.power[c] * a.albedo[c]);
@@ -297,12 +286,12 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
     sorted = n == 1;
     const Light& light = a.lights[k];
     Real foot, h;
-    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    beside_ray(light, d, foot, h);
     const auto at = [&](Real t) HWY_ATTR { cut[n++] = min(max(t, from), to); };
     float step = p.end - p.begin;
-    for (int level = 0; level < levels; ++level) at(foot - (step *= 1.0F / 3.0F));
+    for (int level = 0; level < levels; ++level) at(foot - (step *= 1 / GaussianPanels::cut_ratio));
     at(foot);
-    for (int level = 0; level < levels; ++level, step *= 3.0F) at(foot + step);
+    for (int level = 0; level < levels; ++level, step *= GaussianPanels::cut_ratio) at(foot + step);
   }
   cut[n++] = to;
   for (int last = n - 1; last > 0 && !sorted; --last) {
@@ -327,9 +316,7 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   const Real last = select(going, to, from);
   const bool empty = p.active.begin == p.active.end;
   if (empty) closed_forms(p, from, last, going);
-  bool sampled = !empty;
-  for (std::size_t k = 0; k < a.lights.size(); ++k) sampled |= !GaussianPanels::closed_form(p, panels.shades()[p.shades + k]);
-  if (!sampled) return;
+  if (!p.sampled) return;
   Real cut[GaussianPanels::most_cuts + 2];
   const int n = cuts(p, from, last, cut);
   for (int k = 0; k + 1 < n; ++k) {

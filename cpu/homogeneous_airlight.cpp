@@ -14,9 +14,6 @@ namespace airlight::HWY_NAMESPACE {
 static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& view) {
   const float* distance = view.plane(a.distance);
   const float* tables = a.tables ? view.floats(a.tables) : nullptr;
-  const int kind = static_cast<int>(a.phase.kind);
-  const auto g = static_cast<float>(a.phase.g);
-  const bool scatters = a.extinction > 0;
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance);
     const Real tau = optical_depth(length, a.extinction);
@@ -30,13 +27,8 @@ static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& v
       Real once = 0.0;
       if (a.scattered) {
         once = load(view.plane(a.scattered, 0, static_cast<int>(k)) + i);
-      } else if (light.directional) {
-        const Real mu = -dot(real3(light.vector), d);
-        once = directional_airlight(kind, g, a.extinction, mu, 0.0, length);
-      } else if (scatters) {
-        Real foot, h;
-        perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
-        once = point_airlight(tables, kind, g, a.extinction, foot, h, 0.0, length);
+      } else if (a.extinction > 0) {
+        once = airlight_of(light, d, tables, a.phase, a.extinction, 0.0, length);
       }
       for (int c = 0; c < 3; ++c) {
         const Real scattered = once * (light.power[c] * a.albedo[c]);

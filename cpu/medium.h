@@ -166,7 +166,7 @@ struct RadianceBound {
     for (const Light& light : a.lights) {
       const Real power = std::max({light.power.x, light.power.y, light.power.z});
       Real foot, h = 1.0;
-      if (!light.directional) perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+      if (!light.directional) beside_ray(light, d, foot, h);
       most += power * phase_most / (h * h);
     }
     return most;

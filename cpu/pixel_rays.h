@@ -33,6 +33,22 @@ HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {
   return d;
 }
 
+// A point light beside a ray from the camera: where its foot is, and how far it is from there, at least its radius.
+HWY_INLINE void beside_ray(const Light& light, const Real3& d, Real& foot, Real& h) {
+  perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+}
+
+// What a light of unit power scatters into a ray on [x0, x1] in a homogeneous medium of albedo 1.
+HWY_INLINE Real airlight_of(const Light& light, const Real3& d, table tables, const Phase& phase, float extinction, Real x0,
+                            Real x1) {
+  const int kind = static_cast<int>(phase.kind);
+  const auto g = static_cast<float>(phase.g);
+  if (light.directional) return directional_airlight(kind, g, extinction, -dot(real3(light.vector), d), x0, x1);
+  Real foot, h;
+  beside_ray(light, d, foot, h);
+  return point_airlight(tables, kind, g, extinction, foot, h, x0, x1);
+}
+
 // A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
 HWY_INLINE Real3 toward_light(const Light& light, const Real3& p, Real& length) {
   if (light.directional) {

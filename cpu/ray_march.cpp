@@ -117,7 +117,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     phase = phase_value(kind, g, -dot(real3(light.vector), d));
   } else {
     Real foot, h;
-    perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+    beside_ray(light, d, foot, h);
     const Real before = from - foot, after = to - foot;
     const Real ra = sqrt(fma(before, before, h * h)), rb = sqrt(fma(after, after, h * h));
     weight = step_angle(from, to, ra, rb, foot, h);

@@ -150,7 +150,7 @@ static void shadow_scatter(const ShadowPlanes& a, const TileView& view, std::siz
       const Real3 d = pixel_rays(a.view, view.tile, i);
       Real foot = 0.0, h = 1.0;
       if (!light.directional) {
-        perpendicular(d.x, d.y, d.z, light.vector.x, light.vector.y, light.vector.z, light.radius, foot, h);
+        beside_ray(light, d, foot, h);
       }
       const Real mu = -dot(real3(light.vector), d);
       const Real length = load(c.rays.data() + i);

@@ -70,20 +70,18 @@ class PanelLists {
       const glm::ivec2 active = list(p, one.active, met_gaussian), passed = list(p, one.passed, met_gaussian);
       std::int64_t of_lights = 0;  // with shadow volumes a dispatch takes one of them
       int pieces = 1;
-      bool sampled = active.x < active.y;
       for (std::size_t k = 0; k < a_.lights.size(); ++k) {
         const GaussianPanels::Shade& s = p.shades()[one.shades + k];
-        sampled |= !GaussianPanels::closed_form(one, s);
         const std::int64_t of_this_light = 1 + s.shading.end - s.shading.begin;
         of_lights = a_.volumes ? std::max(of_lights, of_this_light) : of_lights + of_this_light;
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
-      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), sampled ? 1 : 0);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.sampled ? 1 : 0);
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
+      const std::int64_t a_piece = one.sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
@@ -148,6 +146,9 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
   if (a.extinction > 0) defines.push_back("WITH_TABLES");
+  defines.push_back("MOST_CUTS " + std::to_string(all_pieces));
+  defines.push_back("CUT_RATIO " + std::to_string(GaussianPanels::cut_ratio));
+  defines.push_back("AROUND_LIGHT " + std::to_string(GaussianPanels::around_light) + "u");
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/gaussian_airlight.glsl", defines);

@@ -47,9 +47,6 @@ bool glows() { return true; }
 bool is_first_of_light() { return part == 0; }
 #endif
 
-const int most_cuts = 98;
-const int around_light = int(0x80000000u);
-
 ivec2 pixel;
 vec3 d;
 float end;
@@ -87,8 +84,9 @@ Local local_at(ivec2 meets, float t) {
     perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
-    float lateral = gaussian_falloff(inverse, h * h);
-    here.depth += lateral * max(erf_(past * inverse) - erf_(-foot * inverse), 0.0) * 0.5 * gaussian_whole(albedo_extinction_of(g).w, radius);
+    float lateral = gaussian_lateral(inverse, h);
+    float share = gaussian_between(lateral, erf_(-foot * inverse), erf_(past * inverse));
+    here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
     float falloff = lateral * gaussian_falloff(inverse, past * past);
     float extinction = falloff * albedo_extinction_of(g).w;
     here.extinction += extinction;
@@ -105,14 +103,14 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
   vec3 way = toward_light(vector, directional, place, length);
   for (int n = shade.x; n < shade.y; ++n) {
     int index = indices[n];
-    int g = index & ~around_light;
+    int g = index & ~int(AROUND_LIGHT);
     vec3 e = center_radius(g).xyz - place;
     float radius = center_radius(g).w;
     float foot;
     float h;
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
     if (h >= emission_reach(g).w) continue;
-    bool whole_way = (index & around_light) == 0;  // the light stands beyond it
+    bool whole_way = (index & int(AROUND_LIGHT)) == 0;  // the light stands beyond it
     float share = whole_way ? gaussian_depth_beyond(1.0 / radius, h, -foot) : gaussian_depth(1.0 / radius, h, -foot, length - foot);
     depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }
@@ -137,47 +135,32 @@ void take_samples(ivec2 meets, int first_shade, float from, float to, bool light
     float t = fma(width, rule[n].x, middle);
     float weight = width * rule[n].y;
     Local here = local_at(meets, t);
-    float depth = fma(t, albedo_extinction.w, here.depth);
     for (int k = first_light(); k < end_light() && lights; ++k) {
       ivec4 shade = shades[first_shade + k];
       if (closed_form(meets, shade)) continue;
       vec4 vector_radius = light_values[2 * k];
       vec4 power_directional = light_values[2 * k + 1];
       bool directional = power_directional.w != 0.0;
-      vec3 v = vector_radius.xyz;
-      float phase;
-      float strength = weight;
-      float beside = shading(shade, v, directional, d * t);
+      float more = here.depth + shading(shade, vector_radius.xyz, directional, d * t);
+      float density;
       if (directional) {
-        phase = phase_value(phase_kind, emission_g.w, -dot3(v, d));
+        density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);
       } else {
         float foot;
         float h;
-        perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
-        float past = t - foot;
-        float squared = fma(past, past, h * h);
-        float r = sqrt(squared);
-        phase = phase_value(phase_kind, emission_g.w, -past / r);
-        strength = weight / squared;
-        beside = fma(r, albedo_extinction.w, beside);
+        beside_ray(vector_radius, d, foot, h);
+        density = airlight_density(phase_kind, emission_g.w, albedo_extinction.w, foot, h, t, more);
       }
-      add(k, here.scattering * (phase * strength * transmittance(depth + beside)) * power_directional.xyz);
+      add(k, here.scattering * (weight * density) * power_directional.xyz);
     }
-    if (glow && meets.x < meets.y) sum += weight * transmittance(depth) * here.emission;
+    if (glow && meets.x < meets.y) sum += weight * transmittance(fma(t, albedo_extinction.w, here.depth)) * here.emission;
   }
 }
 
 #ifdef WITH_TABLES
 // Per unit of power and albedo, where only the homogeneous part is.
 float closed_form_of(int k, float from, float to) {
-  vec4 vector_radius = light_values[2 * k];
-  vec3 v = vector_radius.xyz;
-  float extinction = albedo_extinction.w;
-  if (light_values[2 * k + 1].w != 0.0) return directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), from, to);
-  float foot;
-  float h;
-  perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
-  return point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, from, to);
+  return airlight_of(light_values[2 * k], light_values[2 * k + 1].w != 0.0, d, phase_kind, emission_g.w, albedo_extinction.w, from, to);
 }
 #endif
 
@@ -209,7 +192,7 @@ void closed_forms(ivec2 meets, int first_shade, float from, float to) {
   sum += through * transmittance(from * extinction) * attenuated_length(length, extinction, optical_depth(length, extinction)) * emission_g.xyz;
 }
 
-float cut[most_cuts];
+float cut[MOST_CUTS];
 int cut_count;
 
 void add_cut(float t, float from, float to) { cut[cut_count++] = min(max(t, from), to); }
@@ -223,19 +206,18 @@ void make_cuts(int first_shade, float panel_length, float from, float to) {
     int levels = shades[first_shade + k].z;
     if (levels == 0) continue;
     in_order = cut_count == 1;
-    vec4 v = light_values[2 * k];
     float foot;
     float h;
-    perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
+    beside_ray(light_values[2 * k], d, foot, h);
     float size = panel_length;
     for (int level = 0; level < levels; ++level) {
-      size *= 1.0 / 3.0;
+      size *= 1.0 / CUT_RATIO;
       add_cut(foot - size, from, to);
     }
     add_cut(foot, from, to);
     for (int level = 0; level < levels; ++level) {
       add_cut(foot + size, from, to);
-      size *= 3.0;
+      size *= CUT_RATIO;
     }
   }
   add_cut(to, from, to);

@@ -25,18 +25,12 @@ void main() {
   for (int k = 0; k < light_count.x; ++k) {
     vec4 vector_radius = light_values[2 * k];
     vec4 power_directional = light_values[2 * k + 1];
-    vec3 v = vector_radius.xyz;
     float once = 0.0;
 #ifdef WITH_SCATTERED
     once = texelFetch(scattered_image, ivec3(p, k), 0).x;
 #else
-    if (power_directional.w != 0.0) {
-      once = directional_airlight(phase_kind, emission_g.w, extinction, -dot3(v, d), 0.0, length);
-    } else if (extinction > 0.0) {
-      float foot;
-      float h;
-      perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
-      once = point_airlight(0, phase_kind, emission_g.w, extinction, foot, h, 0.0, length);
+    if (extinction > 0.0) {
+      once = airlight_of(vector_radius, power_directional.w != 0.0, d, phase_kind, emission_g.w, extinction, 0.0, length);
     }
 #endif
     vec3 scattered = once * (power_directional.xyz * albedo_extinction.xyz);

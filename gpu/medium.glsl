@@ -131,7 +131,7 @@ float radiance_bound(int phase_kind, vec4 emission_g, float extinction, vec3 d) 
     vec4 v = light_values[2 * k];
     float foot;
     float h = 1.0;
-    if (light_values[2 * k + 1].w == 0.0) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, v.w, foot, h);
+    if (light_values[2 * k + 1].w == 0.0) beside_ray(v, d, foot, h);
     most += largest(light_values[2 * k + 1].xyz) * phase_most / (h * h);
   }
   return most;

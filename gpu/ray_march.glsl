@@ -91,7 +91,7 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
   } else {
     float foot;
     float h;
-    perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+    beside_ray(vector_radius, d, foot, h);
     float before = from - foot;
     float after = to - foot;
     float ra = sqrt(fma(before, before, h * h));

@@ -39,6 +39,20 @@ layout(std430, binding = 6) readonly buffer LightBuffer { vec4 light_values[]; }
 #endif
 #endif
 
+// A point light beside a ray from the camera: where its foot is, and how far it is from there, at least its radius.
+void beside_ray(vec4 vector_radius, vec3 d, out float foot, out float h) {
+  perpendicular(d.x, d.y, d.z, vector_radius.x, vector_radius.y, vector_radius.z, vector_radius.w, foot, h);
+}
+
+// What a light of unit power scatters into a ray on [x0, x1] in a homogeneous medium of albedo 1; its tables are those at 0.
+float airlight_of(vec4 vector_radius, bool directional, vec3 d, int phase_kind, float g, float extinction, float x0, float x1) {
+  if (directional) return directional_airlight(phase_kind, g, extinction, -dot3(vector_radius.xyz, d), x0, x1);
+  float foot;
+  float h;
+  beside_ray(vector_radius, d, foot, h);
+  return point_airlight(0, phase_kind, g, extinction, foot, h, x0, x1);
+}
+
 // A light seen from p: unit direction toward it, and how far it is; 1e15 for a directional one.
 vec3 toward_light(vec3 vector, bool directional, vec3 p, out float length) {
   length = 1e15;

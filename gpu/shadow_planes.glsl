@@ -69,7 +69,7 @@ void main() {
   mu = -dot3(v, d);
   foot = 0.0;
   h = 1.0;
-  if (!directional) perpendicular(d.x, d.y, d.z, v.x, v.y, v.z, vector_radius.w, foot, h);
+  if (!directional) beside_ray(vector_radius, d, foot, h);
   bool lit = take_crossings(n);
 #ifdef WITH_SCATTERED
   imageStore(scattered_image, ivec3(p, light), vec4(sum));

@@ -87,6 +87,8 @@ inline constexpr Tolerance tolerances[] = {
     {"atan", 3e-7, "relative: the polynomial's 2e-8, a quotient and a difference rounded"},
     {"gaussian_table", 1e-7, "beside the whole line: the inputs are given as floats, which moves an end by 1e-7 of its distance"},
     {"gaussian_depth", 6e-7, "beside the whole line: half the difference of two erf_, exp_ of a rounded square"},
+    {"light_density", 2.5e-6,
+     "relative, beside 1 + optical depth: a phase value, exp_, the distance from the light and a quotient"},
     {"graded_step", 1e-5, "beside the logarithm of the whole: exp_ and log_ of numbers rounded beside 1"},
     {"step_phase", 1e-2,
      "beside the mean and a tenth of the isotropic one: a step seen in 0.2 rad takes the phase halfway, second order in the "

@@ -75,12 +75,20 @@ FORMULA real airlight_before(table t, real sigma_t, real foot, real h, real x) {
   return transmittance(sigma_t * max(foot, 0.0)) * value / fma(2.0 * rho * tau * tau, r, r);
 }
 
-// The integrand at x, divided by sigma_t.
-FORMULA real airlight_density(int kind, real g, real sigma_t, real foot, real h, real x) {
+// The integrand at x, divided by sigma_t; `more` is the optical depth of what else stands on both ways.
+FORMULA real airlight_density(int kind, real g, real sigma_t, real foot, real h, real x, real more) {
   real past = x - foot;
   real r2 = fma(past, past, h * h);
   real r = sqrt(r2);
-  return phase_value(kind, g, -past / r) * transmittance(sigma_t * (x + r)) / r2;
+  return phase_value(kind, g, -past / r) * transmittance(fma(sigma_t, x + r, more)) / r2;
+}
+FORMULA real airlight_density(int kind, real g, real sigma_t, real foot, real h, real x) {
+  return airlight_density(kind, g, sigma_t, foot, h, x, real(0.0));
+}
+
+// The same of a directional light; mu = -dot(direction of the light, ray).
+FORMULA real directional_density(int kind, real g, real sigma_t, real mu, real x, real more) {
+  return phase_value(kind, g, mu) * transmittance(fma(sigma_t, x, more));
 }
 
 // The same over a segment short beside the light's distance: Gauss-Legendre of eight nodes.

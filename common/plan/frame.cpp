@@ -171,6 +171,7 @@ Buffer FramePlan::add_shadow_volumes(std::uint32_t id, ShadowOrder order) {
   return plan.uploads.back().buffer;
 }
 
+// Which surfaces the lights reach, where there are volumes: a layer a light; else absent.
 Image FramePlan::add_lit(Buffer volumes, std::uint32_t id) {
   if (!volumes) return {};
   const Image lit = handed_on(id, Format::r32f, static_cast<int>(lights.size()));
@@ -220,6 +221,20 @@ Image FramePlan::add_indirect() {
                                         .indirect = indirect},
                         "light scattered once on its way to the surfaces"});
   return indirect;
+}
+
+void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t first_id) {
+  const Image lit = add_lit(volumes, first_id);
+  const bool uneven = !way.gaussians.empty() || way.grid;
+  if (!uneven || !has_surfaces() || lights.empty()) {
+    if (uneven) plan.skips.push_back({"light_march", has_surfaces() ? "no light" : "no surface"});
+    shade(lit);
+    return;
+  }
+  way.distance = distance, way.lit = lit, way.lights = lights, way.view = view;
+  way.light_transmittance = handed_on(first_id + 1, Format::r32f, static_cast<int>(lights.size()));
+  plan.steps.push_back({way, "what of each light reaches the surfaces"});
+  shade(way.light_transmittance);
 }
 
 void FramePlan::shade(Image light_transmittance) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/algorithms/light_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/geometry.h"
 #include "common/scene/scene.h"
@@ -57,8 +58,9 @@ class FramePlan {
   // The volumes of ShadowPlanes, under a handle of the technique's own; absent where the knob `shadows` is off or nothing throws
   // a shadow that can be seen, which the plan's skips tell.
   Buffer add_shadow_volumes(std::uint32_t id, ShadowOrder = ShadowOrder::exact);
-  // Which surfaces the lights reach, where there are volumes: a layer a light; else absent.
-  Image add_lit(Buffer volumes, std::uint32_t id);
+  // Shades surfaces that are lit through Gaussians or a grid. `way`: what stands in the light's way and how it is taken; the rest
+  // of its fields is filled in. Two handles of the technique's own, from `first_id` on.
+  void shade_through(LightMarch way, Buffer volumes, std::uint32_t first_id);
   // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
   // SurfaceShading, or absent. After the step that makes `transmittance`.
   void shade(Image light_transmittance);
@@ -70,6 +72,7 @@ class FramePlan {
   Image optional_image(std::string_view name, Format);
   Image per_light_image();
   Image add_indirect();
+  Image add_lit(Buffer volumes, std::uint32_t id);
   bool wanted(std::string_view name) const;
 
   std::uint32_t next_id_;

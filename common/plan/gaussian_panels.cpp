@@ -11,7 +11,6 @@ namespace {
 constexpr double panel_radii = 4;    // longest panel, in radii of the smallest Gaussian that is smooth over it
 constexpr double panel_depth = 4;    // largest optical depth of a panel
 constexpr double near_light = 0.7;   // of a panel's length: nearer lights have it cut
-constexpr double cut_ratio = 3;      // from one cut to the next
 constexpr double unseen_depth = 90;  // of the homogeneous part: nothing is seen beyond
 constexpr double horizon = 1e15;     // [m]
 constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
@@ -223,7 +222,7 @@ struct GaussianPanels::Build {
     const double gap = std::max({0.0, begin - cone.most_foot(p), cone.least_foot(p) - end});
     double scale = std::sqrt(beside * beside + gap * gap) * sharp;
     std::uint32_t n = 0;
-    for (const double length = end - begin; scale < near_light * length && n < 40; scale *= cut_ratio) ++n;
+    for (const double length = end - begin; scale < near_light * length && n < 40; scale *= static_cast<double>(cut_ratio)) ++n;
     return n;
   }
 
@@ -305,6 +304,7 @@ struct GaussianPanels::Build {
     p.passed.end = static_cast<std::uint32_t>(out.indices_.size());
     last_active = p.active;
     p.shades = static_cast<std::uint32_t>(out.shades_.size());
+    p.sampled = p.active.begin < p.active.end;
     std::uint32_t cuts = 0;
     bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
@@ -317,6 +317,7 @@ struct GaussianPanels::Build {
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
       const bool closed = closed_form(p, s);
       plain = plain && closed;
+      p.sampled = p.sampled || !closed;
       // Only a panel that cannot be divided any more has more cuts than there is room for.
       const std::uint32_t n = closed ? 0 : levels(a.lights[k], begin, end);
       if (n > 0 && cuts + 2 * n + 1 <= most_cuts) s.levels = n, cuts += 2 * n + 1;

@@ -28,18 +28,21 @@ class GaussianPanels {
   };
   // A light, seen from one panel.
   struct Shade {
-    Range shading;             // Gaussians that may stand between it and the panel
-    std::uint32_t levels = 0;  // > 0: it is so near that the panel is cut at its foot and at length / 3^1..levels to both sides
+    Range shading;  // Gaussians that may stand between it and the panel
+    std::uint32_t levels =
+        0;  // > 0: it is so near that the panel is cut at its foot and at length / cut_ratio^1..levels to both sides
   };
   struct Panel {
     float begin = 0, end = 0;  // [m] along the rays
     Range active;              // which of met() rays may meet within
     Range passed;              // which were active before and are no more
     std::uint32_t shades = 0;  // the first of its Shades, one a light
+    bool sampled = false;      // it has nodes: not every light has the closed form
   };
   // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
   static constexpr std::uint32_t around_light = 1U << 31U;
   static constexpr int most_cuts = 96;  // of a panel, over all lights
+  static constexpr float cut_ratio = 3;
 
   // For the square whose upper left pixel is (x, y). What was held before is forgotten.
   void make(const GaussianAirlight&, int x, int y);

@@ -15,7 +15,7 @@ std::optional<std::string> refuses(const Scene& scene) {
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { light_transmittance_id = FramePlan::first_own_id, volumes_id, lit_id };
+  enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -45,30 +45,14 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                                .optical_depth = frame.optical_depth},
                               "light scattered once along the view ray"});
   // Section 4: surfaces are lit through the medium.
-  const Image lit = frame.add_lit(volumes, lit_id);
-  Image light_transmittance;
-  if (!gaussians.empty() && frame.has_surfaces() && !frame.lights.empty()) {
-    light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
-    frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
-                                           .lit = lit,
-                                           .voxels = {},
-                                           .lights = frame.lights,
-                                           .gaussians = gaussians,
-                                           .grid = {},
-                                           .view = frame.view,
-                                           .light_steps = 1,
-                                           .light_depth = LightDepth::analytic,
-                                           .light_transmittance = light_transmittance},
-                                "what of each light reaches the surfaces"});
-  }
-  frame.shade(light_transmittance ? light_transmittance : lit);
+  LightMarch way;
+  way.gaussians = gaussians, way.light_steps = 1, way.light_depth = LightDepth::analytic;
+  frame.shade_through(way, volumes, surfaces_id);
 
   // What this scene does not need.
   if (gaussians.size() < medium.gaussians.size())
     frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
   if (!tables) frame.plan.skips.push_back({"airlight tables", lamps ? "no homogeneous fog" : "no point light"});
-  if (!light_transmittance)
-    frame.plan.skips.push_back({"light_march", gaussians.empty() ? "no Gaussians" : "no surface or no light"});
   return frame.finish();
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double grid_scale = 6;  // cells over which the extinction of a grid is taken to change, in estimate()
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, light_transmittance_id, volumes_id, lit_id };
+  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, volumes_id, surfaces_id };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -54,30 +54,16 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .transmittance = frame.transmittance,
                                        .optical_depth = frame.optical_depth},
                               "the view ray through the medium, step by step"});
-  const Image lit = frame.add_lit(volumes, lit_id);
-  Image light_transmittance;
-  if (uneven && frame.has_surfaces() && !frame.lights.empty()) {
-    light_transmittance = frame.handed_on(light_transmittance_id, Format::r32f, static_cast<int>(frame.lights.size()));
-    frame.plan.steps.push_back({LightMarch{.distance = frame.distance,
-                                           .lit = lit,
-                                           .voxels = voxels,
-                                           .lights = frame.lights,
-                                           .gaussians = gaussians,
-                                           .grid = grid,
-                                           .view = frame.view,
-                                           .light_steps = light_steps,
-                                           .light_depth = light_depth,
-                                           .light_transmittance = light_transmittance},
-                                "what of each light reaches the surfaces"});
-  }
-  frame.shade(light_transmittance ? light_transmittance : lit);
+  LightMarch way;
+  way.voxels = voxels, way.gaussians = gaussians, way.grid = grid;
+  way.light_steps = light_steps, way.light_depth = light_depth;
+  frame.shade_through(way, volumes, surfaces_id);
 
   // What this scene does not need.
   if (gaussians.size() < medium.gaussians.size())
     frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
   if (!uneven)
     frame.plan.skips.push_back({"marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
-  if (uneven && !frame.has_surfaces()) frame.plan.skips.push_back({"light_march", "no surface"});
   return frame.finish();
 }
 
@@ -125,7 +111,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const LightSource& l) { return l.type == LightType::point; });
   const double lights = static_cast<double>(scene.lights.size());
   const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
-  double error = 3e-5, nanoseconds = 12 + 4 * lights;
+  double error = 3e-5, nanoseconds = 4 * lights;
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
   if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
   if (medium.extinction > 0) {
@@ -156,14 +142,8 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
     error += of_uneven(diagonal, grid_scale * cell, n) + of_uneven(diagonal, grid_scale * cell, light_n);
     nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
   }
-  // Shadows, as of shadow-planes: a pixel and light, and a triangle and light. The triangles of surfaces that throw none cost
-  // little.
-  double casting = 0;
-  for (const Surface& s : scene.surfaces) casting += s.casts_shadow ? static_cast<double>(s.mesh->triangles.size()) : 0;
-  const bool shadows = casting > 0 && knobs.choice("shadows") != "off";
-  if (shadows) nanoseconds += 40 * lights;
-  const double set_up = shadows ? 150 * casting * lights : 0;
-  return {error, 1e-9 * (nanoseconds * extent.width * extent.height + set_up) / threads};
+  const double surfaces = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off");
+  return {error, 1e-9 * (nanoseconds * extent.width * extent.height + surfaces) / threads};
 }
 
 }  // namespace

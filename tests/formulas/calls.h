@@ -58,6 +58,11 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 29) r[0] = gaussian_depth(a[0], a[1], a[2], a[3]);
   if (formula == 35) r[0] = gaussian_depth_beyond(a[0], a[1], a[2]);
   if (formula == 36) r[0] = gaussian_whole(a[0], a[1]);
+  if (formula == 37) {
+    r[0] = airlight_density(kind, g, a[0], a[1], a[2], a[3], a[4]);
+    r[1] = directional_density(kind, g, a[0], a[5], a[3], a[4]);
+  }
+  if (formula == 38) r[0] = select(ray_ended(a[0], a[1], a[2]), real(1.0), real(0.0));
   if (formula == 33) r[0] = grid_bound(t, a[0], a[1], a[2], a[3], a[4], a[5]);
   if (formula == 30) r[0] = graded_step(a[0], a[1], a[2], a[3]);
   if (formula == 31) {

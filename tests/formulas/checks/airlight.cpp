@@ -130,6 +130,35 @@ Measured measure_directional(const Run& run) {
   return m;
 }
 
+// What a place scatters toward the camera, of a lamp and of a directional light, behind more than the homogeneous part. Optical
+// depths above 60 are those of transmittance()'s check: it is held there.
+Measured measure_density(const Run& run) {
+  Random random(141);
+  Columns in;
+  for (int i = 0; i < 40000; ++i) {
+    add_call(in, i % 10 == 0 ? 0 : random.magnitude(1e-4, 2), random.number(-20, 20), random.magnitude(1e-3, 20),
+             random.magnitude(1e-3, 20), random.number(0, 8), random.number(-1, 1));
+  }
+  Measured m;
+  for (const Phase& phase : {Phase{}, Phase{PhaseKind::henyey_greenstein, 0.6}}) {
+    const Columns found = run({Formula::light_density, in, phase});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      const double sigma = in[0][i], past = in[3][i] - in[1][i], r = std::hypot(past, in[2][i]), more = in[4][i];
+      const int kind = static_cast<int>(phase.kind);
+      const double lamp = sigma * (in[3][i] + r) + more, sun = sigma * in[3][i] + more;
+      if (lamp > 60) continue;
+      const double of_lamp = f64::phase_value(kind, phase.g, -past / r) * std::exp(-lamp) / (r * r);
+      const double of_sun = f64::phase_value(kind, phase.g, in[5][i]) * std::exp(-sun);
+      const double error =
+          std::max(std::fabs(found[0][i] / of_lamp - 1) / (1 + lamp), std::fabs(found[1][i] / of_sun - 1) / (1 + sun));
+      m.add(error, [&] {
+        return place({{"g", phase.g}, {"sigma_t", sigma}, {"foot", in[1][i]}, {"h", in[2][i]}, {"x", in[3][i]}, {"more", more}});
+      });
+    }
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_airlight_checks(std::vector<Check>& checks) {
@@ -155,6 +184,7 @@ void add_airlight_checks(std::vector<Check>& checks) {
   rays("mie_hazy", {PhaseKind::mie_hazy, 0});
   rays("mie_murky", {PhaseKind::mie_murky, 0});
   checks.push_back({"airlight_extremes", measure_extremes, "exact_double", "exact_double"});
+  checks.push_back({"light_density", measure_density, "exact_double", "light_density"});
   checks.push_back({"directional_airlight", measure_directional, "opacity_double", "opacity"});
 }
 

@@ -50,6 +50,8 @@ enum class Formula : int {
   gaussian_depth = 29,         // inverse radius, h, from, to
   gaussian_depth_beyond = 35,  // inverse radius, h, from
   gaussian_whole = 36,         // extinction, radius
+  light_density = 37,          // sigma_t, foot, h, x, more, mu -> of a point light, of a directional one
+  ray_ended = 38,              // front, most, seen -> 1 or 0
   graded_step = 30,            // k, n, length, extinction
   step_of_light = 31,          // a, b, foot, h -> angle over h, mean place, mean distance
   step_transmittance = 32,     // front, tau, share, beside

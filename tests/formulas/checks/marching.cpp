@@ -132,6 +132,29 @@ Measured measure_transmittance(const Run& run) {
   return m;
 }
 
+// Share of wrong answers: never before exp(-16), always behind exp(-80), between them by what may still come. Inputs close to a
+// threshold are left out.
+Measured measure_end(const Run& run) {
+  Random random(stream + 3);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    const double front = random.number(0, 100), least = std::exp(-std::min(front, 80.0)) * 1e6;
+    const double side = i % 2 == 0 ? random.magnitude(1e-4, 0.99) : random.magnitude(1.01, 1e4),
+                 most = random.magnitude(1e-6, 1e6);
+    if (std::fabs(front - 16) > 0.01 && std::fabs(front - 80) > 0.01) add_call(in, front, most, side * least * most);
+  }
+  const Columns found = run({Formula::ray_ended, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double front = in[0][i], rest = std::exp(-front) * in[1][i];
+    const bool ended = front >= 80 || (front >= 16 && rest <= 1e-6 * in[2][i]);
+    m.add(std::fabs(found[0][i] - (ended ? 1 : 0)), [&] {
+      return place({{"front", front}, {"most", in[1][i]}, {"seen", in[2][i]}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_marching_checks(std::vector<Check>& checks) {
@@ -140,6 +163,7 @@ void add_marching_checks(std::vector<Check>& checks) {
   checks.push_back({"step_mean_place", [](const Run& run) { return measure_means(run, false); }, "step_means", "step_means"});
   checks.push_back({"step_mean_distance", [](const Run& run) { return measure_means(run, true); }, "step_means", "step_means"});
   checks.push_back({"step_phase", measure_phase, "step_phase", "step_phase"});
+  checks.push_back({"ray_ended", measure_end, "exact_double", "exact_float"});
   checks.push_back({"step_transmittance", measure_transmittance, "opacity_double", "opacity"});
 }
 
