@@ -32,9 +32,12 @@ class Backend {
   // common/plan/keys.h) is not run again.
   virtual void run(std::span<const Step>, Stats&, Progress&) = 0;
 
-  // Copies a kept image back (layout: Image). The only way back to the host. Throws std::logic_error for one that no step has
+  // Copies a kept image back (layout: Image). Throws std::logic_error for one that no step has
   // written.
   virtual void download(const Image&, std::span<float>) = 0;
+
+  // Copies a buffer back that a step has made.
+  virtual void download(const Buffer&, std::span<std::byte>) = 0;
 };
 
 }  // namespace airlight

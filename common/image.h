@@ -40,7 +40,7 @@ struct Image : Handle {
   }
 };
 
-// A read-only array of plain values that the host uploads.
+// An array of plain values: uploaded by the host, or made by a step and then kept, like an image with `keep`.
 struct Buffer : Handle {
   std::size_t bytes = 0;
 };

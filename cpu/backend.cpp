@@ -72,6 +72,8 @@ struct CpuBackend::State {
   }
 
   std::vector<Group> groups(std::span<const Step>, const std::vector<bool>& run) const;
+  template <class A>
+  void run_volume(const A&);
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
   void prepare(std::size_t index, const SurfaceVisibility&);
   // ShadowPlanes, RayMarch, GaussianAirlight.
@@ -92,7 +94,7 @@ struct CpuBackend::State {
   }
   template <class PixelStep>
   void run_tile(std::size_t, const PixelStep& a, const TileView& view, int) {
-    airlight::run_tile(a, view, simd);
+    if constexpr (PixelStep::domain != Domain::volume) airlight::run_tile(a, view, simd);
   }
   template <class Shadowed>
   requires requires(const Shadowed& a) { a.volumes; }
@@ -103,11 +105,24 @@ struct CpuBackend::State {
   }
 };
 
+// A step that makes buffers, and no image.
+template <class A>
+void CpuBackend::State::run_volume(const A& a) {
+  for (const Buffer& made : buffers_made_by(a)) {
+    images.erase(made);  // another plan may have had an image under this handle
+    HeldBuffer& held = buffers[made];
+    held.bytes.resize(made.bytes);
+    held.key = 0;
+  }
+  if constexpr (A::domain == Domain::volume) airlight::run_volume(a, BufferView(buffers), workers, simd);
+}
+
 std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, const std::vector<bool>& run) const {
   std::vector<Group> found;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!run[i]) continue;
-    const Extent extent = outputs_of(steps[i].what).at(0).extent;
+    const bool volume = domain_of(steps[i].what) == Domain::volume;
+    const Extent extent = volume ? Extent{} : outputs_of(steps[i].what).at(0).extent;
     const bool joins = fuse && !found.empty() && domain_of(steps[i].what) == Domain::pixel && found.back().extent == extent;
     if (!joins) found.push_back({{}, extent});
     found.back().steps.push_back(i);
@@ -122,6 +137,15 @@ void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a) {
 
 void CpuBackend::State::run_group(const Group& group, std::span<const Step> steps, std::span<StepStats> stats,
                                   Progress& progress) {
+  if (const Step& head = steps[group.steps[0]]; domain_of(head.what) == Domain::volume) {
+    const Clock::time_point start = Clock::now();
+    std::visit([&](const auto& a) { run_volume(a); }, head.what);
+    StepStats& step = stats[group.steps[0]];
+    for (const Buffer& made : buffers_made_by(head.what)) step.items += made.bytes / sizeof(float);
+    step.seconds = seconds_since(start);
+    threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
+    return;
+  }
   // What the group touches: whole images where they are held, else a place in each worker's scratch.
   struct Place {
     std::uint32_t id;
@@ -150,6 +174,8 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
               if (value) place(value);
             } else if constexpr (std::is_same_v<Value, Buffer>) {
               if (value) inputs.emplace_back(value.id, buffer(value)), last_id = std::max(last_id, value.id);
+            } else if constexpr (std::is_same_v<Value, std::vector<Buffer>>) {
+              for (const Buffer& b : value) inputs.emplace_back(b.id, buffer(b)), last_id = std::max(last_id, b.id);
             }
           });
           const Clock::time_point start = Clock::now();
@@ -223,9 +249,10 @@ void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progre
   State& s = *state_;
   const Clock::time_point start = Clock::now();
   const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return s.upload_key(h); });
-  const std::vector<bool> run = steps_to_run(steps, keys, [&](const Image& image, std::uint64_t key) {
-    const auto held = s.images.find(image);
-    return held != s.images.end() && held->second.key == key;
+  const std::vector<bool> run = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
+    const auto image = s.images.find(made);
+    const auto buffer = s.buffers.find(made);
+    return (image != s.images.end() && image->second.key == key) || (buffer != s.buffers.end() && buffer->second.key == key);
   });
   const std::vector<Group> groups = s.groups(steps, run);
 
@@ -268,6 +295,7 @@ void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progre
     for (const Image& image : outputs_of(steps[i].what)) {
       if (image.keep) s.images.at(image).key = output_key(keys[i], image);
     }
+    for (const Buffer& buffer : buffers_made_by(steps[i].what)) s.buffers.at(buffer).key = output_key(keys[i], buffer);
   }
   stats.seconds = seconds_since(start);
 }
@@ -276,6 +304,12 @@ void CpuBackend::download(const Image& image, std::span<float> rows) {
   const auto held = state_->images.find(image);
   if (held == state_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
   held->second.to_rows(rows);
+}
+
+void CpuBackend::download(const Buffer& buffer, std::span<std::byte> bytes) {
+  const auto held = state_->buffers.find(buffer);
+  if (held == state_->buffers.end() || held->second.key == 0) throw std::logic_error("buffer download: nothing is held");
+  std::copy_n(held->second.bytes.begin(), std::min(held->second.bytes.size(), bytes.size()), bytes.begin());
 }
 
 Simd CpuBackend::simd_that_ran() const { return target_that_runs(state_->simd); }

@@ -26,6 +26,7 @@ class CpuBackend final : public Backend {
   void upload(const Image&, std::span<const float>, std::uint64_t key) override;
   void run(std::span<const Step>, Stats&, Progress&) override;
   void download(const Image&, std::span<float>) override;
+  void download(const Buffer&, std::span<std::byte>) override;
 
   // For proofs: the target that the kernels really ran on, and how many different threads the last run() used.
   Simd simd_that_ran() const;

@@ -53,4 +53,15 @@ struct HeldBuffer {
   std::uint64_t key = 0;
 };
 
+// What a kernel that makes buffers sees of them.
+class BufferView {
+ public:
+  explicit BufferView(std::map<Handle, HeldBuffer>& held) : held_(held) {}
+  const float* floats(const Buffer& b) const { return made(b); }
+  float* made(const Buffer& b) const { return b ? reinterpret_cast<float*>(held_.at(b).bytes.data()) : nullptr; }
+
+ private:
+  std::map<Handle, HeldBuffer>& held_;
+};
+
 }  // namespace airlight

@@ -1,9 +1,12 @@
-// Entry points of the per-pixel kernels: one tile, on the asked SIMD target. Each stands in the file of its algorithm's name.
+// Entry points of the kernels, on the asked SIMD target: of the per-pixel ones for a tile. Each stands in the file of its
+// algorithm's name.
 #pragma once
 
 #include <span>
 
 #include "common/algorithms/algorithm.h"
+#include "cpu/held_images.h"
+#include "cpu/parallel.h"
 #include "cpu/shadow_parts.h"
 #include "cpu/targets.h"
 #include "cpu/tile.h"
@@ -19,5 +22,8 @@ void run_tile(const RayMarch&, const TileView&, Simd, std::span<const LitParts> 
 void run_tile(const GaussianAirlight&, const TileView&, Simd, std::span<const LitParts> lit);
 void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
+// Those that make buffers.
+void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);
+void run_volume(const OpticalDepthPropagation&, const BufferView&, Workers&, Simd);
 
 }  // namespace airlight

@@ -23,9 +23,7 @@ static void light_march(const LightMarch& a, const TileView& view) {
       Real through = 1.0;
       if (any_lane(hit)) {
         const Real3 p = along({0.0, 0.0, 0.0}, pixel_rays(a.view, view.tile, i), select(hit, depth, 0.0));
-        Real length;
-        const Real3 way = toward_light(a.lights[k], p, length);
-        through = select(hit, transmittance(depth_of_way(medium, p, way, length, hit)), 1.0);
+        through = select(hit, transmittance(depth_to(medium, k, a.lights[k], p, hit)), 1.0);
       }
       if (a.lit) through *= load(view.plane(a.lit, 0, static_cast<int>(k)) + i);
       store(through, view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);

@@ -1,5 +1,5 @@
-// Gaussians and grid for a vector of lanes: the extinction at a place and along a way. Included after cpu/simd.h and
-// cpu/pixel_rays.h, anew for every target.
+// Gaussians and grid for a vector of lanes: the extinction at a place, along a way and toward a light. Included after cpu/simd.h
+// and cpu/pixel_rays.h, anew for every target.
 #if defined(AIRLIGHT_CPU_MEDIUM_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef AIRLIGHT_CPU_MEDIUM_H
 #undef AIRLIGHT_CPU_MEDIUM_H
@@ -11,6 +11,7 @@
 
 #include "common/algorithms/medium.h"
 #include "common/plan/voxels.h"
+#include "cpu/depth_volume.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -72,12 +73,21 @@ struct MediumLookup {
   GridLookup grid;
   int light_steps;
   LightDepth light_depth;
+  const std::vector<DepthVolume>* depth_volumes;  // with LightDepth::volume, and their tables
+  const std::vector<Buffer>* depths;
+  const TileView* view;
 
   template <class Algorithm>
-  MediumLookup(const Algorithm& a, const TileView& view)
-      : gaussians(&a.gaussians), grid{&a.grid, nullptr, nullptr}, light_steps(a.light_steps), light_depth(a.light_depth) {
+  MediumLookup(const Algorithm& a, const TileView& tile_view)
+      : gaussians(&a.gaussians),
+        grid{&a.grid, nullptr, nullptr},
+        light_steps(a.light_steps),
+        light_depth(a.light_depth),
+        depth_volumes(&a.depth_volumes),
+        depths(&a.depths),
+        view(&tile_view) {
     if (!a.grid) return;
-    grid.values = view.floats(a.voxels);
+    grid.values = tile_view.floats(a.voxels);
     grid.bricks = grid.values + bricks_at(a.grid);
   }
   bool any() const { return !gaussians->empty() || *grid.grid; }
@@ -142,6 +152,15 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
                          [&](const Real3& p) HWY_ATTR { return medium.grid.extinction_at(p); });
   }
   return sum;
+}
+
+// Optical depth of Gaussians and grid from p to light number k. Lanes outside `on` may give anything.
+HWY_INLINE Real depth_to(const MediumLookup& medium, std::size_t k, const Light& light, const Real3& p, Mask on) {
+  if (medium.light_depth == LightDepth::volume)
+    return depth_to_light((*medium.depth_volumes)[k], medium.view->floats((*medium.depths)[k]), p);
+  Real length;
+  const Real3 way = toward_light(light, p, length);
+  return depth_of_way(medium, p, way, length, on);
 }
 
 // What rays through Gaussians and a homogeneous part can have at most, were they seen through nothing.

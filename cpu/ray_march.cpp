@@ -127,10 +127,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     beside = r * a.extinction;
   }
   if (medium.any()) {
-    const Real3 p = along({0.0, 0.0, 0.0}, d, at);
-    Real length;
-    const Real3 way = toward_light(light, p, length);
-    beside += depth_of_way(medium, p, way, length, going);
+    beside += depth_to(medium, k, light, along({0.0, 0.0, 0.0}, d, at), going);
   }
   const Real share = (at - from) / max(to - from, 1e-30);
   const Mask scatters = lit ? going && (from < to) : going;

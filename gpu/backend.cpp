@@ -59,11 +59,20 @@ class GlBackend final : public Backend {
     read_texture(context_->gl(), *held->second.texture, image, values);
   }
 
+  void download(const Buffer& buffer, std::span<std::byte> bytes) override {
+    const GlContext::Current current(*context_);
+    const auto held = runner_->buffers.find(buffer);
+    if (held == runner_->buffers.end() || held->second.key == 0) throw std::logic_error("buffer download: nothing is held");
+    const std::vector<std::byte> content = runner_->content(buffer);
+    std::copy_n(content.begin(), std::min(content.size(), bytes.size()), bytes.begin());
+  }
+
   void run(std::span<const Step>, Stats&, Progress&) override;
 
  private:
   std::uint64_t upload_key(Handle) const;
   HeldTexture& prepare(const Image&);
+  HeldStorage& prepare(const Buffer&);
   void release_transients();
 
   std::unique_ptr<GlContext> context_;
@@ -92,6 +101,16 @@ HeldTexture& GlBackend::prepare(const Image& image) {
   return held;
 }
 
+// A buffer of that size; what it held is gone.
+HeldStorage& GlBackend::prepare(const Buffer& buffer) {
+  runner_->images.erase(buffer);
+  HeldStorage& held = runner_->buffers[buffer];
+  held.key = 0;
+  if (!held.buffer) held.buffer = std::make_unique<GlBuffer>(context_->gl());
+  held.buffer->fill(buffer.bytes, nullptr);
+  return held;
+}
+
 void GlBackend::release_transients() {
   for (auto held = runner_->images.begin(); held != runner_->images.end();) {
     if (held->second.transient) {
@@ -107,9 +126,11 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
   const GlContext::Current current(*context_);
   const Clock::time_point start = Clock::now();
   const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return upload_key(h); });
-  const std::vector<bool> runs = steps_to_run(steps, keys, [&](const Image& image, std::uint64_t key) {
-    const auto held = runner_->images.find(image);
-    return held != runner_->images.end() && held->second.key == key;
+  const std::vector<bool> runs = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
+    const auto image = runner_->images.find(made);
+    const auto buffer = runner_->buffers.find(made);
+    return (image != runner_->images.end() && image->second.key == key) ||
+           (buffer != runner_->buffers.end() && buffer->second.key == key);
   });
 
   // After which step a transient image is read no more.
@@ -132,12 +153,18 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
       progress.check();
       const Clock::time_point step_start = Clock::now();
       const std::vector<Image> outputs = outputs_of(steps[i].what);
+      const std::vector<Buffer> made = buffers_made_by(steps[i].what);
       for (const Image& image : outputs) prepare(image).transient = !image.keep;
+      for (const Buffer& buffer : made) prepare(buffer);
       std::visit([&](const auto& a) { airlight::run(a, *runner_, progress); }, steps[i].what);
       context_->gl().Finish();  // what the step costs, and that a stop is seen soon
       check_gl(context_->gl(), step.name.c_str());
       for (const Image& image : outputs) {
         if (image.keep) runner_->images.at(image).key = output_key(keys[i], image);
+      }
+      for (const Buffer& buffer : made) {
+        runner_->buffers.at(buffer).key = output_key(keys[i], buffer);
+        step.items += buffer.bytes / sizeof(float);
       }
       for (const auto& [handle, last] : last_use) {
         const auto held = runner_->images.find(handle);
@@ -145,8 +172,10 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
         runner_->pool().give(std::move(held->second.texture));
         runner_->images.erase(held);
       }
-      const Extent extent = outputs.at(0).extent;
-      step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
+      if (!outputs.empty()) {
+        const Extent extent = outputs[0].extent;
+        step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
+      }
       step.seconds = seconds_since(step_start);
     }
     stats.steps.push_back(step);

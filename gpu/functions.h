@@ -18,6 +18,7 @@
   X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)         \
   X(ClipControl, CLIPCONTROL)                                   \
   X(CompileShader, COMPILESHADER)                               \
+  X(CopyNamedBufferSubData, COPYNAMEDBUFFERSUBDATA)             \
   X(CreateBuffers, CREATEBUFFERS)                               \
   X(CreateFramebuffers, CREATEFRAMEBUFFERS)                     \
   X(CreateProgram, CREATEPROGRAM)                               \

@@ -6,9 +6,12 @@ namespace airlight {
 
 void run(const LightMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
+  const int depths_at = bind_depths(r, a.voxels, {a.depths, a.depth_volumes});
+  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
   defines.push_back(r.lights(a.lights));
   if (a.lit) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/light_march.glsl", defines);
+  program.set("depth_volumes_at", depths_at);
   r.read(0, a.distance);
   if (a.lit) r.read(1, a.lit);
   r.write(0, a.light_transmittance);

@@ -19,9 +19,7 @@ void main() {
   for (int k = first_light; k < end_light; ++k) {
     float through = 1.0;
     if (depth < 1e30) {
-      float length;
-      vec3 way = toward_light(light_values[2 * k].xyz, light_values[2 * k + 1].w != 0.0, place, length);
-      through = transmittance(depth_of_way(place, way, length));
+      through = transmittance(depth_to(k, light_values[2 * k].xyz, light_values[2 * k + 1].w != 0.0, place));
     }
 #ifdef WITH_LIT
     through *= texelFetch(lit_image, ivec3(p, k), 0).x;

@@ -11,7 +11,7 @@ namespace airlight {
 namespace {
 
 constexpr std::size_t block_gaussians = 128;  // 6 KiB; GL promises 16
-constexpr GLuint medium_binding = 3, many_gaussians_binding = 5;
+constexpr GLuint medium_binding = 3, many_gaussians_binding = 5, depths_number = 42;
 
 struct MediumBlock {
   glm::ivec4 counts;  // Gaussians, steps to a light, where the bricks begin
@@ -51,12 +51,43 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
   return defines;
 }
 
+int bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
+  if (d.depths.empty()) return -1;
+  struct Head {  // of a light, as gpu/medium.glsl reads it
+    glm::vec4 rows[3];
+    std::int32_t kind, at, unused[2];
+  };
+  std::vector<Head> heads;
+  std::size_t bytes = tables.bytes + sizeof(Head) * d.depths.size();
+  for (std::size_t k = 0; k < d.depths.size(); ++k) {
+    const DepthVolume& v = d.volumes[k];
+    heads.push_back({{v.rows[0], v.rows[1], v.rows[2]},
+                     static_cast<std::int32_t>(v.kind),
+                     static_cast<std::int32_t>(bytes / sizeof(float)),
+                     {}});
+    bytes += d.depths[k].bytes;
+  }
+  if (bytes > r.storage_limit()) {
+    throw MachineError("OpenGL: the lights' volumes take " + std::to_string(bytes >> 20U) +
+                       " MiB, more than a storage buffer may have (" + std::to_string(r.storage_limit() >> 20U) +
+                       "), expected a smaller resolution");
+  }
+  r.reserve(depths_number, bytes);
+  if (tables) r.copy(r.buffer_name(tables), depths_number, 0, tables.bytes);
+  r.write_storage(depths_number, tables.bytes, std::as_bytes(std::span(heads)));
+  for (std::size_t k = 0; k < heads.size(); ++k) {
+    r.copy(r.buffer_name(d.depths[k]), depths_number, static_cast<std::size_t>(heads[k].at) * sizeof(float), d.depths[k].bytes);
+  }
+  r.bind(tables_binding, depths_number);
+  return static_cast<int>(tables.bytes / sizeof(float));
+}
+
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,
                        LightDepth light_depth, std::size_t lights, std::int64_t most) {
   const auto count = static_cast<std::int64_t>(gaussians.size()), n = static_cast<std::int64_t>(light_steps);
-  LoopBudget budget{2 + count, 1};
+  LoopBudget budget{light_depth == LightDepth::volume ? 4 : 2 + count, 1};
   if (count > 0 && light_depth == LightDepth::march) budget.a_light += n * (1 + count);
-  if (grid) budget.a_light += n + 3;
+  if (grid && light_depth != LightDepth::volume) budget.a_light += n + 3;
   if (budget.a_light + count + 2 > most) {
     throw MachineError("OpenGL: " + std::to_string(light_steps) + " steps to a light through " + std::to_string(count) +
                        " Gaussians are more loops than a shader may run, expected fewer light_steps or shadow=analytic");

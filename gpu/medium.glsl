@@ -116,8 +116,35 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
   return sum;
 }
 
+#ifdef WITH_DEPTH_VOLUMES
+uniform int depth_volumes_at;
+
+// A light's head: the rows of its DepthVolume, its kind, where its table begins.
+float depth_to_light(int k, vec3 p) {
+  int head = depth_volumes_at + 16 * k;
+  vec3 q;
+  for (int axis = 0; axis < 3; ++axis) {
+    int row = head + 4 * axis;
+    q[axis] = fma(table_values[row], p.x, fma(table_values[row + 1], p.y, fma(table_values[row + 2], p.z, table_values[row + 3])));
+  }
+  return depth_in_volume(floatBitsToInt(table_values[head + 13]), floatBitsToInt(table_values[head + 12]), q.x, q.y, q.z);
+}
+#endif
+
+// Optical depth of Gaussians and grid from p to light number k.
+float depth_to(int k, vec3 light, bool directional, vec3 p) {
+#ifdef WITH_DEPTH_VOLUMES
+  return depth_to_light(k, p);
+#else
+  float length;
+  vec3 way = toward_light(light, directional, p, length);
+  return depth_of_way(p, way, length);
+#endif
+}
+
 float largest(vec3 v) { return max(max(v.x, v.y), v.z); }
 
+#if defined(MOST_LIGHTS) || defined(MANY_LIGHTS)
 // What a ray through Gaussians and a homogeneous part can have at most, were it seen through nothing. emission_g: the homogeneous part's, and the phase
 // function's g.
 float radiance_bound(int phase_kind, vec4 emission_g, float extinction, vec3 d) {
@@ -136,3 +163,4 @@ float radiance_bound(int phase_kind, vec4 emission_g, float extinction, vec3 d) 
   }
   return most;
 }
+#endif

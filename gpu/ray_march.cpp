@@ -8,12 +8,15 @@ namespace airlight {
 
 void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
+  const int depths_at = bind_depths(r, a.voxels, {a.depths, a.depth_volumes});
+  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/ray_march.glsl", defines);
+  program.set("depth_volumes_at", depths_at);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);

@@ -103,10 +103,7 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
     beside = r * albedo_extinction.w;
   }
 #if defined(WITH_GAUSSIANS) || defined(WITH_GRID)
-  vec3 p = d * at;
-  float length;
-  vec3 way = toward_light(v, power_directional.w != 0.0, p, length);
-  beside += depth_of_way(p, way, length);
+  beside += depth_to(k, v, power_directional.w != 0.0, d * at);
 #endif
   float share = (at - from) / max(to - from, 1e-30);
   float once = phase * weight * step_transmittance(before_it, tau, share, beside);

@@ -104,6 +104,15 @@ void StepRunner::read_storage(GLuint number, std::span<std::byte> bytes) {
   gl_.GetNamedBufferSubData(small_.at(number).name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
+void StepRunner::write_storage(GLuint number, std::size_t at, std::span<const std::byte> bytes) {
+  gl_.NamedBufferSubData(small_.at(number).name(), static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes.size()),
+                         bytes.data());
+}
+
+void StepRunner::copy(GLuint from, GLuint number, std::size_t at, std::size_t bytes) {
+  gl_.CopyNamedBufferSubData(from, small_.at(number).name(), 0, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes));
+}
+
 std::size_t StepRunner::storage_limit() const {
   GLint64 bytes = 0;
   gl_.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);

@@ -60,7 +60,9 @@ class StepRunner {
   void reserve(GLuint number, std::size_t bytes);
   void bind(GLuint binding, GLuint number);
   void read_storage(GLuint number, std::span<std::byte>);
-  std::size_t storage_limit() const;  // [byte] of one storage buffer
+  void write_storage(GLuint number, std::size_t at, std::span<const std::byte>);
+  void copy(GLuint from_buffer, GLuint number, std::size_t at, std::size_t bytes);  // the beginning of a buffer to `at`
+  std::size_t storage_limit() const;                                                // [byte] of one storage buffer
   template <class T>
   void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));
@@ -97,6 +99,8 @@ void run(const ViewTransmittance&, StepRunner&, const Progress&);
 void run(const SurfaceAirlight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
+void run(const DensityInjection&, StepRunner&, const Progress&);
+void run(const OpticalDepthPropagation&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);
 void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);

@@ -15,8 +15,12 @@ std::vector<Handle> inputs_of(const Algorithm& a) {
   std::visit(
       [&](const auto& x) {
         x.fields(x, [&](const Field& field, const auto& value) {
-          if constexpr (std::is_base_of_v<Handle, std::remove_cvref_t<decltype(value)>>) {
-            if (field.role == Role::input && value) found.push_back(value);
+          using Value = std::remove_cvref_t<decltype(value)>;
+          if (field.role != Role::input) return;
+          if constexpr (std::is_base_of_v<Handle, Value>) {
+            if (value) found.push_back(value);
+          } else if constexpr (std::is_same_v<std::vector<Buffer>, Value>) {
+            found.insert(found.end(), value.begin(), value.end());
           }
         });
       },
@@ -24,12 +28,15 @@ std::vector<Handle> inputs_of(const Algorithm& a) {
   return found;
 }
 
-std::vector<Image> outputs_of(const Algorithm& a) {
-  std::vector<Image> found;
+namespace {
+
+template <class Made>
+std::vector<Made> made_by(const Algorithm& a) {
+  std::vector<Made> found;
   std::visit(
       [&](const auto& x) {
         x.fields(x, [&](const Field& field, const auto& value) {
-          if constexpr (std::is_same_v<Image, std::remove_cvref_t<decltype(value)>>) {
+          if constexpr (std::is_same_v<Made, std::remove_cvref_t<decltype(value)>>) {
             if (field.role == Role::output && value) found.push_back(value);
           }
         });
@@ -37,5 +44,10 @@ std::vector<Image> outputs_of(const Algorithm& a) {
       a);
   return found;
 }
+
+}  // namespace
+
+std::vector<Image> outputs_of(const Algorithm& a) { return made_by<Image>(a); }
+std::vector<Buffer> buffers_made_by(const Algorithm& a) { return made_by<Buffer>(a); }
 
 }  // namespace airlight

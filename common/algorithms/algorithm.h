@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "common/algorithms/compose.h"
+#include "common/algorithms/density_injection.h"
 #include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
+#include "common/algorithms/optical_depth_propagation.h"
 #include "common/algorithms/ray_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/algorithms/surface_airlight.h"
@@ -18,8 +20,9 @@
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
-                               HomogeneousAirlight, RayMarch, GaussianAirlight, LightMarch, Compose>;
+using Algorithm =
+    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading, HomogeneousAirlight,
+                 DensityInjection, OpticalDepthPropagation, RayMarch, GaussianAirlight, LightMarch, Compose>;
 
 struct Step {
   Algorithm what;
@@ -31,5 +34,6 @@ Domain domain_of(const Algorithm&);
 // Those that are present, in order of the fields.
 std::vector<Handle> inputs_of(const Algorithm&);
 std::vector<Image> outputs_of(const Algorithm&);
+std::vector<Buffer> buffers_made_by(const Algorithm&);
 
 }  // namespace airlight

@@ -18,7 +18,7 @@ constexpr Field out(std::string_view name, std::string_view unit = "") { return 
 constexpr Field knob(std::string_view name, std::string_view unit = "") { return {name, unit, Role::knob}; }
 
 // pixel: reads and writes only its own pixel, so that consecutive steps may be run tile by tile; screen: everything else
-// that makes screen images.
-enum class Domain { pixel, screen };
+// that makes screen images; volume: makes buffers, and no image.
+enum class Domain { pixel, screen, volume };
 
 }  // namespace airlight

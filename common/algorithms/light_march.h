@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/algorithms/depth_volume.h"
 #include "common/algorithms/field.h"
 #include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
@@ -11,10 +12,12 @@ namespace airlight {
 // How much of each light comes through Gaussians and grid to the surface that each pixel shows; 1 where it shows none. The
 // homogeneous part is SurfaceShading's.
 struct LightMarch {
-  Image distance;  // r32f [m], 1e30 on a miss
-  Image lit;       // as ShadowPlanes::light_transmittance, a factor; optional
-  Buffer voxels;   // as RayMarch's
+  Image distance;              // r32f [m], 1e30 on a miss
+  Image lit;                   // as ShadowPlanes::light_transmittance, a factor; optional
+  Buffer voxels;               // as RayMarch's
+  std::vector<Buffer> depths;  // one a light, as OpticalDepthPropagation's; with LightDepth::volume
   std::vector<Light> lights;
+  std::vector<DepthVolume> depth_volumes;  // where they stand, seen from the camera
   std::vector<GaussianDensity> gaussians;
   GridDensity grid;
   View view;
@@ -30,7 +33,9 @@ struct LightMarch {
     v(in("distance", "m"), s.distance);
     v(in("lit"), s.lit);
     v(in("voxels", "1/m"), s.voxels);
+    v(in("depths"), s.depths);
     v(knob("lights"), s.lights);
+    v(knob("depth_volumes"), s.depth_volumes);
     v(knob("gaussians"), s.gaussians);
     v(knob("grid"), s.grid);
     v(knob("view"), s.view);

@@ -27,7 +27,8 @@ struct GridDensity {
   explicit operator bool() const { return size.x > 0; }
 };
 
-// How the light's way through Gaussians is attenuated: by marching it too, or by the closed form of each.
-enum class LightDepth : int { march, analytic };
+// How the light's way through Gaussians and grid is attenuated: by marching it too; by the closed form of each Gaussian, marching
+// the grid; by a lookup in the light's volume, which OpticalDepthPropagation makes.
+enum class LightDepth : int { march, analytic, volume };
 
 }  // namespace airlight

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/algorithms/depth_volume.h"
 #include "common/algorithms/field.h"
 #include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
@@ -13,10 +14,12 @@ namespace airlight {
 // Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters Gaussians and grid to where it
 // leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is empty costs nothing.
 struct RayMarch {
-  Image distance;  // r32f [m], 1e30 on a miss
-  Buffer voxels;   // extinctions of the grid (common/plan/voxels.h); with a grid
-  Buffer volumes;  // as ShadowPlanes'; optional: without, nothing throws a shadow
+  Image distance;              // r32f [m], 1e30 on a miss
+  Buffer voxels;               // extinctions of the grid (common/plan/voxels.h); with a grid
+  Buffer volumes;              // as ShadowPlanes'; optional: without, nothing throws a shadow
+  std::vector<Buffer> depths;  // one a light, as OpticalDepthPropagation's; with LightDepth::volume
   std::vector<Light> lights;
+  std::vector<DepthVolume> depth_volumes;  // where they stand, seen from the camera
   std::vector<GaussianDensity> gaussians;
   GridDensity grid;
   View view;
@@ -42,7 +45,9 @@ struct RayMarch {
     v(in("distance", "m"), s.distance);
     v(in("voxels", "1/m"), s.voxels);
     v(in("volumes"), s.volumes);
+    v(in("depths"), s.depths);
     v(knob("lights"), s.lights);
+    v(knob("depth_volumes"), s.depth_volumes);
     v(knob("gaussians"), s.gaussians);
     v(knob("grid"), s.grid);
     v(knob("view"), s.view);

@@ -9,3 +9,4 @@
 #include "common/formulas/surface_airlight.h"
 #include "common/formulas/gaussian.h"
 #include "common/formulas/marching.h"
+#include "common/formulas/depth_volume.h"

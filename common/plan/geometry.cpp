@@ -87,17 +87,21 @@ View view_of(const Scene& scene, const FrameRequest& request) {
   return view;
 }
 
+Light light_of(const LightSource& from, const glm::dvec3& origin) {
+  Light to;
+  to.directional = from.type == LightType::directional;
+  to.vector = to.directional ? from.direction : from.position - origin;
+  to.power = from.power;
+  to.radius = static_cast<float>(from.radius);
+  return to;
+}
+
 std::vector<Light> lights_of(const Scene& scene, std::vector<std::size_t>* index) {
   std::vector<Light> lights;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightSource& from = scene.lights[i];
     if (from.power == glm::dvec3(0)) continue;
-    Light to;
-    to.directional = from.type == LightType::directional;
-    to.vector = to.directional ? from.direction : from.position - scene.camera.position;
-    to.power = from.power;
-    to.radius = static_cast<float>(from.radius);
-    lights.push_back(to);
+    lights.push_back(light_of(from, scene.camera.position));
     if (index) index->push_back(i);
   }
   return lights;
@@ -110,12 +114,14 @@ std::vector<Material> materials_of(const Scene& scene) {
   return materials;
 }
 
-std::vector<GaussianDensity> gaussians_of(const Scene& scene) {
+std::vector<GaussianDensity> gaussians_of(const Scene& scene) { return gaussians_of(scene, scene.camera.position); }
+
+std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& origin) {
   std::vector<GaussianDensity> gaussians;
   for (const Gaussian& from : scene.medium.gaussians) {
     if (!(from.extinction > 0)) continue;
     GaussianDensity to;
-    to.center = from.center - scene.camera.position;
+    to.center = from.center - origin;
     to.radius = static_cast<float>(from.radius);
     to.extinction = static_cast<float>(from.extinction);
     to.albedo = from.albedo;

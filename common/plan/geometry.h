@@ -20,6 +20,9 @@ std::vector<Material> materials_of(const Scene&);
 // Gaussians of non-zero extinction, each with the distance at which a chord's optical depth falls below 1e-5, and below 1e-5 of
 // its own.
 std::vector<GaussianDensity> gaussians_of(const Scene&);
+// Seen from a place of one's own, not from the camera.
+std::vector<GaussianDensity> gaussians_of(const Scene&, const glm::dvec3& origin);
+Light light_of(const LightSource&, const glm::dvec3& origin);
 
 // The surfaces as one list of triangles, laid out as SurfaceVisibility wants it. The three uploads are made on demand.
 struct Geometry {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "common/algorithms/depth_volume.h"
 #include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
 
@@ -45,6 +46,10 @@ class Hash {
   void add(const GridDensity& g) {
     for (const glm::vec4& row : g.cells) add(row);
     add(g.size), add(g.albedo);
+  }
+  void add(const DepthVolume& d) {
+    add(d.kind), add(d.first), add(d.scale), add(d.nodes);
+    for (const glm::vec4& row : d.rows) add(row);
   }
   template <class T>
   void add(const std::vector<T>& v) {

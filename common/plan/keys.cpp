@@ -22,6 +22,12 @@ std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::fun
               if (field.role != Role::input || !value) return;
               const auto found = written.find(value);
               hash.add(found != written.end() ? found->second : key_of_upload(value));
+            } else if constexpr (std::is_same_v<std::vector<Buffer>, std::remove_cvref_t<decltype(value)>>) {
+              hash.add(value.size());
+              for (const Buffer& b : value) {
+                const auto found = written.find(b);
+                hash.add(found != written.end() ? found->second : key_of_upload(b));
+              }
             } else {
               hash.add(value);
             }
@@ -30,6 +36,7 @@ std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::fun
         step.what);
     keys.push_back(hash.value());
     for (const Image& image : outputs_of(step.what)) written[image] = output_key(keys.back(), image);
+    for (const Buffer& buffer : buffers_made_by(step.what)) written[buffer] = output_key(keys.back(), buffer);
   }
   return keys;
 }
@@ -43,8 +50,16 @@ std::uint64_t output_key(std::uint64_t step_key, const Image& output) {
   return hash.value();
 }
 
+std::uint64_t output_key(std::uint64_t step_key, const Buffer& output) {
+  Hash hash;
+  hash.add(step_key);
+  hash.add(output.id);
+  hash.add(output.bytes);
+  return hash.value();
+}
+
 std::vector<bool> steps_to_run(std::span<const Step> steps, std::span<const std::uint64_t> keys,
-                               const std::function<bool(const Image&, std::uint64_t key)>& held) {
+                               const std::function<bool(Handle, std::uint64_t key)>& held) {
   std::vector<bool> run(steps.size(), false);
   std::set<Handle> needed;  // by a later step that runs
   for (std::size_t i = steps.size(); i-- > 0;) {
@@ -52,6 +67,9 @@ std::vector<bool> steps_to_run(std::span<const Step> steps, std::span<const std:
       const bool wanted = image.keep || needed.contains(image);
       if (wanted && !(image.keep && held(image, output_key(keys[i], image)))) run[i] = true;
       needed.erase(image);
+    }
+    for (const Buffer& buffer : buffers_made_by(steps[i].what)) {
+      if (!held(buffer, output_key(keys[i], buffer))) run[i] = true;
     }
     if (!run[i]) continue;
     for (const Handle input : inputs_of(steps[i].what)) needed.insert(input);

@@ -17,9 +17,10 @@ std::vector<std::uint64_t> step_keys(std::span<const Step>, const std::function<
 
 // The key of a step's output.
 std::uint64_t output_key(std::uint64_t step_key, const Image& output);
+std::uint64_t output_key(std::uint64_t step_key, const Buffer& output);
 
 // Which steps must run: those with a kept output that is not `held` under its key, and those that make what they read.
 std::vector<bool> steps_to_run(std::span<const Step>, std::span<const std::uint64_t> keys,
-                               const std::function<bool(const Image&, std::uint64_t key)>& held);
+                               const std::function<bool(Handle, std::uint64_t key)>& held);
 
 }  // namespace airlight

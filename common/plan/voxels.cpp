@@ -23,10 +23,8 @@ Size in_ring(const glm::ivec3& cells) {
 }
 
 // Lookups begin at every cell of the ring but the last.
-Size bricks_of(const Size& ring) {
-  const auto bricks = [](std::size_t n) { return (n - 1 + brick_side - 1) / brick_side; };
-  return {bricks(ring.x), bricks(ring.y), bricks(ring.z)};
-}
+std::size_t bricks_of_ring(std::size_t n) { return (n - 1 + brick_side - 1) / brick_side; }
+Size bricks_of(const Size& ring) { return {bricks_of_ring(ring.x), bricks_of_ring(ring.y), bricks_of_ring(ring.z)}; }
 
 void add_size(std::vector<float>& table, std::size_t x, std::size_t y, std::size_t z) {
   for (const std::size_t n : {x, y, z}) table.push_back(static_cast<float>(n));
@@ -68,6 +66,13 @@ std::vector<float> voxel_table(const GridMedium& grid) {
 
 std::size_t bricks_at(const GridDensity& grid) { return 3 + in_ring(glm::ivec3(grid.size)).count(); }
 
+int bricks_an_axis(int cells) { return static_cast<int>(bricks_of_ring(static_cast<std::size_t>(cells) + 2)); }
+
+std::size_t voxel_table_floats(const glm::ivec3& cells) {
+  const Size ring = in_ring(cells);
+  return 6 + ring.count() + bricks_of(ring).count();
+}
+
 GridDensity grid_density(const GridMedium& grid, const glm::dvec3& camera) {
   const glm::dmat4 to_cells = glm::inverse(grid.transform);
   GridDensity density;
@@ -86,8 +91,7 @@ Plan::Upload voxels_of(const GridMedium& grid, std::uint32_t id) {
   key.add(glm::vec3(grid.voxels->size));
   key.bytes(std::as_bytes(std::span(grid.voxels->values)));
   key.add(grid.scale);
-  const Size ring = in_ring(grid.voxels->size);
-  const Buffer buffer{{id}, sizeof(float) * (6 + ring.count() + bricks_of(ring).count())};
+  const Buffer buffer{{id}, sizeof(float) * voxel_table_floats(grid.voxels->size)};
   return table_upload(buffer, key.value(), [grid] { return voxel_table(grid); });
 }
 

@@ -6,9 +6,10 @@ namespace airlight {
 
 std::vector<NamedCase> all_cases() {
   std::vector<NamedCase> all;
-  for (const auto list : {surface_visibility_cases(), shadow_planes_cases(), view_transmittance_cases(), surface_airlight_cases(),
-                          surface_shading_cases(), homogeneous_airlight_cases(), ray_march_cases(), gaussian_airlight_cases(),
-                          light_march_cases(), compose_cases(), frame_cases()}) {
+  for (const auto list :
+       {surface_visibility_cases(), shadow_planes_cases(), view_transmittance_cases(), surface_airlight_cases(),
+        surface_shading_cases(), homogeneous_airlight_cases(), density_injection_cases(), optical_depth_propagation_cases(),
+        ray_march_cases(), gaussian_airlight_cases(), light_march_cases(), compose_cases(), frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;
@@ -31,10 +32,22 @@ void upload(Backend& backend, const Case& c) {
   for (const auto& [image, values] : c.images) backend.upload(image, values, key(std::as_bytes(std::span(values))));
 }
 
-std::vector<float> download(Backend& backend, const Image& image) {
-  std::vector<float> values(image.floats());
-  backend.download(image, values);
+std::vector<float> download(Backend& backend, const Result& result) {
+  if (const Image* image = std::get_if<Image>(&result)) {
+    std::vector<float> values(image->floats());
+    backend.download(*image, values);
+    return values;
+  }
+  const Buffer& buffer = std::get<Buffer>(result);
+  std::vector<float> values(buffer.bytes / sizeof(float));
+  backend.download(buffer, std::as_writable_bytes(std::span(values)));
   return values;
+}
+
+Image shape_of_result(const Result& result) {
+  if (const Image* image = std::get_if<Image>(&result)) return *image;
+  const int floats = static_cast<int>(std::get<Buffer>(result).bytes / sizeof(float));
+  return {std::get<Buffer>(result), Format::r32f, {floats, 1}, 1, true};
 }
 
 }  // namespace airlight

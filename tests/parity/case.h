@@ -8,17 +8,20 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/backend.h"
 
 namespace airlight {
 
+using Result = std::variant<Image, Buffer>;  // a buffer of floats
+
 struct Case {
   std::vector<std::pair<Buffer, std::vector<std::byte>>> buffers;
   std::vector<std::pair<Image, std::vector<float>>> images;
   std::vector<Step> steps;
-  std::vector<std::pair<std::string, Image>> results;  // each kept
+  std::vector<std::pair<std::string, Result>> results;  // images are kept
 };
 
 struct NamedCase {
@@ -33,6 +36,8 @@ std::span<const NamedCase> view_transmittance_cases();
 std::span<const NamedCase> surface_airlight_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
+std::span<const NamedCase> density_injection_cases();
+std::span<const NamedCase> optical_depth_propagation_cases();
 std::span<const NamedCase> ray_march_cases();
 std::span<const NamedCase> gaussian_airlight_cases();
 std::span<const NamedCase> light_march_cases();
@@ -48,6 +53,8 @@ std::vector<NamedCase> long_cases();
 
 // Uploads the inputs; then run(case.steps) may be called any number of times.
 void upload(Backend&, const Case&);
-std::vector<float> download(Backend&, const Image&);
+std::vector<float> download(Backend&, const Result&);
+// A buffer is as an image one row high.
+Image shape_of_result(const Result&);
 
 }  // namespace airlight

@@ -1,5 +1,6 @@
 #include "common/techniques/gaussian_airlight.h"
 #include "common/techniques/marching.h"
+#include "common/techniques/opacity_propagation.h"
 #include "common/techniques/shadow_planes.h"
 #include "tests/parity/inputs.h"
 
@@ -45,16 +46,23 @@ Scene torus_among_gaussians() {
   return scene;
 }
 Case shadows_in_gaussians(Extent e) { return frame(torus_among_gaussians(), e, gaussian_airlight(), {{"samples", "3"}}); }
+Case propagated(Extent e, const char* density, const char* scheme) {
+  const Set set{{"resolution", "12"}, {"steps", "6"}, {"density", density}, {"scheme", scheme}};
+  return frame(torus_among_gaussians(), e, opacity_propagation(), set);
+}
 Case marched_shadows(Extent e) { return frame(torus_among_gaussians(), e, marching(), {{"steps", "6"}}); }
 
 }  // namespace
 
 std::span<const NamedCase> frame_cases() {
-  static constexpr NamedCase cases[] = {{"frame/torus_in_fog", torus_in_fog},
-                                        {"frame/torus_in_clear_air", torus_in_clear_air},
-                                        {"frame/empty_fog", empty_fog},
-                                        {"frame/shadows_in_gaussians", shadows_in_gaussians},
-                                        {"frame/marched_shadows", marched_shadows}};
+  static constexpr NamedCase cases[] = {
+      {"frame/torus_in_fog", torus_in_fog},
+      {"frame/torus_in_clear_air", torus_in_clear_air},
+      {"frame/empty_fog", empty_fog},
+      {"frame/shadows_in_gaussians", shadows_in_gaussians},
+      {"frame/marched_shadows", marched_shadows},
+      {"frame/propagated", [](Extent e) { return propagated(e, "exact", "rays"); }},
+      {"frame/propagated_in_cells", [](Extent e) { return propagated(e, "volume", "upwind"); }}};
   return cases;
 }
 

@@ -10,7 +10,7 @@
 
 namespace airlight {
 
-std::vector<GaussianDensity> test_gaussians(int count) {
+Scene test_gaussian_scene(int count) {
   Scene scene;
   for (int i = 0; i < count; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
@@ -25,10 +25,12 @@ std::vector<GaussianDensity> test_gaussians(int count) {
     if (i == 1) g.emission = {0.2, 0.1, 0};
     scene.medium.gaussians.push_back(g);
   }
-  return gaussians_of(scene);
+  return scene;
 }
 
-void add_test_grid(TestMedium& medium, Case& c, std::uint32_t id) {
+std::vector<GaussianDensity> test_gaussians(int count) { return gaussians_of(test_gaussian_scene(count)); }
+
+GridMedium test_grid() {
   auto voxels = std::make_shared<VoxelGrid>();
   voxels->size = {12, 9, 14};
   const int cells = voxels->size.x * voxels->size.y * voxels->size.z;
@@ -39,11 +41,21 @@ void add_test_grid(TestMedium& medium, Case& c, std::uint32_t id) {
   GridMedium grid{.voxels = voxels, .scale = 1.5, .albedo = {0.7, 0.8, 0.9}};
   grid.transform = glm::translate(glm::dmat4(1), {-0.6, -1.2, -6.5}) * glm::rotate(glm::dmat4(1), 0.5, {0.3, 1, 0.2}) *
                    glm::scale(glm::dmat4(1), {0.2, 0.25, 0.15});
-  medium.grid = grid_density(grid, {0, 0, 0});
+  return grid;
+}
+
+Buffer add_voxels(Case& c, const GridMedium& grid, std::uint32_t id) {
   const std::vector<float> table = voxel_table(grid);
   const auto bytes = std::as_bytes(std::span(table));
-  medium.voxels = {{id}, bytes.size()};
-  c.buffers.emplace_back(medium.voxels, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  const Buffer voxels{{id}, bytes.size()};
+  c.buffers.emplace_back(voxels, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  return voxels;
+}
+
+void add_test_grid(TestMedium& medium, Case& c, std::uint32_t id) {
+  const GridMedium grid = test_grid();
+  medium.grid = grid_density(grid, {0, 0, 0});
+  medium.voxels = add_voxels(c, grid, id);
 }
 
 }  // namespace airlight

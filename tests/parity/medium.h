@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/algorithms/medium.h"
+#include "common/scene/scene.h"
 #include "tests/parity/case.h"
 
 namespace airlight {
@@ -17,8 +18,12 @@ struct TestMedium {
 
 // `count` Gaussians around the sphere of sphere_on_plane(), of several albedos, one of which glows.
 std::vector<GaussianDensity> test_gaussians(int count);
+Scene test_gaussian_scene(int count);
 
-// A turned box of 12 x 9 x 14 cells beside it, a third of which are empty; its table becomes buffer `id` of the case.
+// A turned box of 12 x 9 x 14 cells beside it, a third of which are empty.
+GridMedium test_grid();
+// The grid's table becomes buffer `id` of the case.
+Buffer add_voxels(Case&, const GridMedium&, std::uint32_t id);
 void add_test_grid(TestMedium&, Case&, std::uint32_t id);
 
 }  // namespace airlight

@@ -37,12 +37,12 @@ void cpu_equals_gl(const NamedCase& named, Extent extent) {
   }
   // Only rasterised surfaces have edges at which the two may choose another triangle.
   std::vector<bool> edges;
-  for (const auto& [name, image] : c.results) {
-    if (name == "distance" || name == "depth") edges = edges_of(image.extent, download(cpu, image));
+  for (const auto& [name, result] : c.results) {
+    if (name == "distance" || name == "depth") edges = edges_of(shape_of_result(result).extent, download(cpu, result));
   }
   const double share = edges.empty() ? 0 : tolerance("parity_edge_share");
-  for (const auto& [name, image] : c.results) {
-    const Difference d = difference(image, download(cpu, image), download(*gl, image), edges);
+  for (const auto& [name, result] : c.results) {
+    const Difference d = difference(shape_of_result(result), download(cpu, result), download(*gl, result), edges);
     std::printf("%s %s: %s\n", std::string(named.name).c_str(), name.c_str(), d.text().c_str());
     ASSERT_TRUE(d.finite) << name;
     EXPECT_LE(d.share, share) << name;

@@ -75,7 +75,7 @@ TEST(Keys, OnlyStaleStepsRunAndWhatTheyNeed) {
   const auto steps = chain.steps();
   const auto keys = keys_of(chain);
   const auto run = [&](bool beauty, bool transmittance) {
-    return steps_to_run(steps, keys, [=](const Image& image, std::uint64_t) { return image.id == 5 ? beauty : transmittance; });
+    return steps_to_run(steps, keys, [=](Handle made, std::uint64_t) { return made.id == 5 ? beauty : transmittance; });
   };
   EXPECT_EQ(run(true, true), (std::vector{false, false, false}));
   EXPECT_EQ(run(false, true), (std::vector{false, true, true}));

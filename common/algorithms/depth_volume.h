@@ -1,0 +1,34 @@
+// Where the optical depths toward a light stand that OpticalDepthPropagation makes. The depths are a buffer; its layout and the
+// lookup are told in common/formulas/depth_volume.h.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace airlight {
+
+struct DepthVolume {
+  // cells: the centres of a box of cubes. The others lie along the light's rays, plane behind plane of equal distance, so that a
+  // ray's depths are sums along one line of nodes: parallel, of a directional light; frustum, of a point light far outside the
+  // medium; cube, of one near or inside it: six faces about the light.
+  enum class Kind : int { cells, parallel, frustum, cube };
+
+  Kind kind = Kind::cells;
+  // Row i of `rows` takes a place (x, y, z, 1) to coordinate i of the light's frame [m], in which it shines from the origin (of
+  // parallel: from z = 0) along z; of cells, to cells, 0 at the first centre.
+  glm::vec4 rows[3] = {};
+  // A node's number is (q - first) * scale, q = (x / z, y / z, z) of frustum and cube, (x, y, z) of the others.
+  glm::vec3 first{0, 0, 0}, scale{1, 1, 1};
+  glm::vec3 nodes{0, 0, 0};  // of a face, each at least 2; 0: there is no volume
+
+  explicit operator bool() const { return nodes.x > 0; }
+  int faces() const { return kind == Kind::cube ? 6 : 1; }
+  // [float] of the buffer: head and depths.
+  std::size_t floats() const {
+    return 9 + static_cast<std::size_t>(faces()) * static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y) *
+                   static_cast<std::size_t>(nodes.z);
+  }
+};
+
+}  // namespace airlight

@@ -1,0 +1,232 @@
+#include "common/techniques/opacity_propagation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "common/error.h"
+#include "common/plan/depth_volumes.h"
+#include "common/plan/frame.h"
+#include "common/plan/voxels.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr std::size_t most_floats = std::size_t{1} << 28U;  // of all volumes of a frame: 1 GiB
+constexpr std::size_t few_gaussians = 4;                    // that many are evaluated faster than a cell is looked up
+
+// What stands in the way of light and view: closed forms and a grid as they are in the scene, or one grid that holds them all.
+struct Density {
+  std::vector<GaussianDensity> gaussians;
+  Buffer voxels;
+  GridDensity grid;
+};
+
+// One grid has one albedo, and does not glow.
+bool holds_in_a_grid(const Medium& medium) {
+  const glm::dvec3* albedo = medium.grid ? &medium.grid->albedo : nullptr;
+  for (const Gaussian& g : medium.gaussians) {
+    if (!(g.extinction > 0)) continue;
+    if (!albedo) albedo = &g.albedo;
+    if (g.albedo != *albedo || g.emission != glm::dvec3(0)) return false;
+  }
+  return true;
+}
+
+glm::vec3 grid_albedo(const Medium& medium) { return medium.grid ? medium.grid->albedo : medium.gaussians.front().albedo; }
+
+enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id, voxels_id = surfaces_id + 2, injected_id, depths_id };
+
+// Both of a scene with Gaussians or a grid.
+struct VolumePlan {
+  FramePlan& frame;
+  const Scene& scene;
+  MediumBox box;
+  bool cells;     // the volumes are those of the box's cells
+  bool injected;  // rays are marched through them
+  Buffer native;  // the scene's grid
+  Buffer extinction;
+
+  VolumePlan(FramePlan& f, const KnobValues& knobs) : frame(f), scene(f.scene) {
+    const Medium& medium = scene.medium;
+    box = medium_box(scene, static_cast<int>(knobs.number("resolution")));
+    cells = knobs.choice("scheme") != "rays";
+    const std::string_view density = knobs.choice("density");
+    const bool can = holds_in_a_grid(medium);
+    if (density == "volume" && !can)
+      throw InputError(
+          "setting density: \"volume\" has one albedo and no emission, the scene's Gaussians have more; expected auto or exact");
+    injected = box && can && (density == "volume" || (density == "auto" && medium.gaussians.size() > few_gaussians));
+    if (medium.grid) {
+      frame.plan.uploads.push_back(voxels_of(*medium.grid, voxels_id));
+      native = frame.plan.uploads.back().buffer;
+    }
+    if (box && (injected || (cells && !frame.lights.empty()))) {
+      extinction = {{injected_id}, sizeof(float) * voxel_table_floats(box.cells)};
+      const Density all = as_given(box.corner);
+      frame.plan.steps.push_back({DensityInjection{.gaussians = all.gaussians,
+                                                   .voxels = all.voxels,
+                                                   .grid = all.grid,
+                                                   .size = box.cells,
+                                                   .cell = static_cast<float>(box.cell),
+                                                   .extinction = extinction},
+                                  "the medium's extinction on a grid"});
+    } else if (box) {
+      frame.plan.skips.push_back(
+          {"density_injection", medium.gaussians.size() <= few_gaussians
+                                    ? "a grid as it is and a few Gaussians in closed form are faster"
+                                    : "Gaussians of several albedos, that glow, or wanted in closed form"});
+    }
+  }
+
+  Density as_given(const glm::dvec3& origin) const {
+    Density d;
+    d.gaussians = gaussians_of(scene, origin);
+    if (scene.medium.grid) d.voxels = native, d.grid = grid_density(*scene.medium.grid, origin);
+    return d;
+  }
+  Density in_box(const glm::dvec3& origin) const { return {{}, extinction, box_density(box, grid_albedo(scene.medium), origin)}; }
+  Density to_march() const { return injected ? in_box(scene.camera.position) : as_given(scene.camera.position); }
+
+  // How many lookups between two nodes of a light's ray the grid is worth.
+  int samples(bool in_cells) const {
+    double finest = box.cell;
+    if (!in_cells && scene.medium.grid) {
+      for (int axis = 0; axis < 3; ++axis) finest = std::min(finest, glm::length(glm::dvec3(scene.medium.grid->transform[axis])));
+    }
+    return std::clamp(static_cast<int>(std::ceil(1.5 * box.cell / finest)), 1, 8);
+  }
+
+  // A volume a light.
+  void propagate(const KnobValues& knobs, std::vector<Buffer>& depths, std::vector<DepthVolume>& volumes) {
+    const Density from = cells || injected ? in_box(box.corner) : as_given(box.corner);
+    std::size_t floats = extinction.bytes / sizeof(float);
+    for (std::size_t k = 0; k < frame.lights.size(); ++k) {
+      const LightSource& source = scene.lights[frame.light_index[k]];
+      const auto placed = [&](const glm::dvec3& origin) {
+        return cells ? cell_volume(box, origin) : depth_volume(box, source, origin);
+      };
+      const DepthVolume volume = placed(box.corner);
+      floats += volume.floats();
+      const Buffer made{{depths_id + static_cast<std::uint32_t>(k)}, sizeof(float) * volume.floats()};
+      Light light = light_of(source, box.corner);
+      light.power = glm::vec3(1);  // a light that only changes its power keeps its volume
+      frame.plan.steps.push_back(
+          {OpticalDepthPropagation{.gaussians = from.gaussians,
+                                   .voxels = from.voxels,
+                                   .grid = from.grid,
+                                   .light = light,
+                                   .volume = volume,
+                                   .scheme = knobs.choice("scheme") == "published" ? DepthScheme::published : DepthScheme::upwind,
+                                   .samples = samples(cells || injected),
+                                   .depths = made},
+           "the optical depth from a light to everywhere"});
+      depths.push_back(made);
+      volumes.push_back(placed(scene.camera.position));
+    }
+    if (floats > most_floats)
+      throw InputError("setting resolution: the volumes of " + std::to_string(frame.lights.size()) + " lights would take " +
+                       std::to_string(floats >> 18U) + " MiB, expected at most " + std::to_string(most_floats >> 18U));
+  }
+};
+
+Plan plan(const Scene& scene, const FrameRequest& request) {
+  const Medium& medium = scene.medium;
+  FramePlan frame(scene, request);
+  const Buffer volumes = frame.add_shadow_volumes(volumes_id);
+  VolumePlan volume(frame, request.knobs);
+  std::vector<Buffer> depths;
+  std::vector<DepthVolume> depth_volumes;
+  const Density density = volume.to_march();
+  if (volume.box && !frame.lights.empty()) {
+    volume.propagate(request.knobs, depths, depth_volumes);
+  } else {
+    frame.plan.skips.push_back({"optical_depth_propagation", volume.box ? "no light" : "the medium is homogeneous"});
+  }
+  const LightDepth light_depth = depths.empty() ? LightDepth::analytic : LightDepth::volume;
+  frame.plan.steps.push_back({RayMarch{.distance = frame.distance,
+                                       .voxels = density.voxels,
+                                       .volumes = volumes,
+                                       .depths = depths,
+                                       .lights = frame.lights,
+                                       .depth_volumes = depth_volumes,
+                                       .gaussians = density.gaussians,
+                                       .grid = density.grid,
+                                       .view = frame.view,
+                                       .phase = medium.phase,
+                                       .extinction = frame.extinction,
+                                       .sky_distance = frame.sky_distance,
+                                       .albedo = medium.albedo,
+                                       .ambient = frame.ambient,
+                                       .emission = medium.emission,
+                                       .steps = static_cast<int>(request.knobs.number("steps")),
+                                       .light_steps = 1,
+                                       .light_depth = light_depth,
+                                       .airlight = frame.airlight,
+                                       .per_light = frame.per_light,
+                                       .transmittance = frame.transmittance,
+                                       .optical_depth = frame.optical_depth},
+                              "the view ray through the medium, step by step"});
+  LightMarch way;
+  way.voxels = density.voxels, way.gaussians = density.gaussians, way.grid = density.grid;
+  way.depths = depths, way.depth_volumes = depth_volumes, way.light_steps = 1, way.light_depth = light_depth;
+  frame.shade_through(way, volumes, surfaces_id);
+  return frame.finish();
+}
+
+// No goal takes it yet: nothing is promised.
+Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
+  const double steps = knobs.number("steps"), lights = static_cast<double>(scene.lights.size());
+  const double pixels = static_cast<double>(extent.width) * extent.height;
+  const double surfaces = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off");
+  return {std::numeric_limits<double>::infinity(), 1e-9 * (pixels * steps * (3 + 5 * lights) + surfaces) / threads};
+}
+
+}  // namespace
+
+Technique opacity_propagation() {
+  Technique t;
+  t.name = "opacity-propagation";
+  t.summary = "any medium, each light's optical depths carried through a volume (Giroud and Biri)";
+  t.knobs = {
+      {.name = "resolution",
+       .kind = Knob::Kind::integer,
+       .standard = "48",
+       .least = 2,
+       .most = 256,
+       .choices = {},
+       .meaning = "cells along the longest edge of the box about Gaussians and grid",
+       .sweep = {"12", "16", "24", "32", "48", "64", "96", "128"}},
+      {.name = "steps",
+       .kind = Knob::Kind::integer,
+       .standard = "32",
+       .least = 1,
+       .most = 4096,
+       .choices = {},
+       .meaning = "steps along the view ray in each stretch of medium",
+       .sweep = {"8", "16", "32", "64", "128"}},
+      {.name = "scheme",
+       .kind = Knob::Kind::choice,
+       .standard = "rays",
+       .choices = {"rays", "upwind", "published"},
+       .meaning = "how depths are carried: along the light's rays; from cell to cell, consistently or as the paper prints it",
+       .sweep = {},
+       .baselines = {"upwind", "published"}},
+      {.name = "density",
+       .kind = Knob::Kind::choice,
+       .standard = "auto",
+       .choices = {"auto", "exact", "volume"},
+       .meaning = "extinction along the rays: each Gaussian and the grid as it is, or all from one volume of that resolution",
+       .sweep = {},
+       .baselines = {"exact"}},
+      shadows_knob(),
+      indirect_knob()};
+  t.refuses = [](const Scene&) { return std::optional<std::string>(); };
+  t.plan = plan;
+  t.estimate = estimate;
+  return t;
+}
+
+}  // namespace airlight

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/plan/voxels.h"
+#include "cpu/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/optical_depth_propagation.cpp"
+#include <hwy/foreach_target.h>
+
+#include "cpu/simd.h"
+//
+#include "cpu/pixel_rays.h"
+//
+#include "cpu/medium.h"
+
+#ifndef AIRLIGHT_CPU_OPTICAL_DEPTH_PROPAGATION
+#define AIRLIGHT_CPU_OPTICAL_DEPTH_PROPAGATION
+namespace airlight {
+
+namespace {
+
+// Rays of one row of a face.
+struct RayRow {
+  int face = 0, j = 0;
+};
+
+// A line of cells along x: T of a cell is sums + shares T of the one before it.
+struct CellLine {
+  const float* extinction;
+  const float *nearer_y, *nearer_z;  // depths of the lines beside it that are nearer to the light; null: 0
+  float x, y, z;                     // from the light to the first centre [m]; of a directional one the way that it shines
+  bool slab_y, slab_z;               // the light shines within the layer of cells: nothing comes from beside it along that axis
+  float *sums, *shares;
+};
+
+}  // namespace
+
+}  // namespace airlight
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+namespace {
+
+// A light's rays through `lanes` nodes of a face: a place at distance t from the light (of a parallel one, from the first plane)
+// is from + t d; planes are `rate` z apart.
+struct LightRays {
+  Real3 from, d;
+  Real rate;
+
+  HWY_INLINE LightRays(const OpticalDepthPropagation& a, RayRow row, Real column) {
+    const DepthVolume& v = a.volume;
+    const Real u = fma(column, 1 / v.scale.x, v.first.x), w = fma(Real(static_cast<float>(row.j)), 1 / v.scale.y, v.first.y);
+    const glm::vec4* r = v.rows;
+    if (v.kind == DepthVolume::Kind::parallel) {
+      const Real x = u - r[0].w, y = w - r[1].w, z = -r[2].w;
+      from = {fma(x, r[0].x, fma(y, r[1].x, z * r[2].x)), fma(x, r[0].y, fma(y, r[1].y, z * r[2].y)),
+              fma(x, r[0].z, fma(y, r[1].z, z * r[2].z))};
+      d = {r[2].x, r[2].y, r[2].z};
+      rate = 1.0;
+      return;
+    }
+    Real q[3] = {u, w, 1.0};
+    if (v.kind == DepthVolume::Kind::cube) {
+      const int axis = row.face / 2;
+      q[axis] = row.face % 2 == 0 ? 1.0 : -1.0;
+      q[(axis + 1) % 3] = u;
+      q[(axis + 2) % 3] = w;
+    }
+    rate = sqrt(fma(u, u, fma(w, w, 1.0)));
+    const Real scale = 1.0 / rate;
+    for (Real& c : q) c *= scale;
+    from = real3(a.light.vector);
+    d = {fma(q[0], r[0].x, fma(q[1], r[1].x, q[2] * r[2].x)), fma(q[0], r[0].y, fma(q[1], r[1].y, q[2] * r[2].y)),
+         fma(q[0], r[0].z, fma(q[1], r[1].z, q[2] * r[2].z))};
+  }
+};
+
+}  // namespace
+
+// Depths of one row of rays: `line` has room for the nodes of a ray, a vector each.
+static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRow row, float* line, float* depths) {
+  const DepthVolume& v = a.volume;
+  const int nx = static_cast<int>(v.nodes.x), ny = static_cast<int>(v.nodes.y), nz = static_cast<int>(v.nodes.z);
+  const float step = 1 / v.scale.z;
+  GridLookup grid{&a.grid, voxels, voxels};
+  if (a.grid) grid.bricks += bricks_at(a.grid);
+  for (int i = 0; i < nx; i += lanes) {
+    const LightRays rays(a, row, first_lanes() + static_cast<float>(i));
+    const auto distance = [&](float k) HWY_ATTR { return fma(Real(k), step, v.first.z) * rays.rate; };
+    for (int k = 0; k < nz; ++k) store(0.0, line + k * lanes);
+    for (const GaussianDensity& g : a.gaussians) {
+      const Real3 e = to_center(g, rays.from);
+      Real foot, h;
+      perpendicular(rays.d.x, rays.d.y, rays.d.z, e.x, e.y, e.z, 0.0, foot, h);
+      const Real begin = foot - g.reach, end = foot + g.reach;
+      const Mask meets = (h < g.reach) && (end > 0.0);
+      if (!any_lane(meets)) continue;
+      const Real inverse = 1 / g.radius;
+      const Real lateral = gaussian_lateral(inverse, h) * gaussian_whole(g.extinction, g.radius);
+      const Real before = erf_(-foot * inverse);
+      const Real whole = gaussian_between(lateral, before, erf_(Real(g.reach) * inverse));
+      for (int k = 0; k < nz; ++k) {
+        const Real t = distance(static_cast<float>(k));
+        const Mask here = meets && (t > begin);
+        if (!any_lane(here)) continue;
+        Real depth = whole;
+        if (any_lane(t < end)) depth = select(t < end, gaussian_between(lateral, before, erf_((t - foot) * inverse)), whole);
+        float* node = line + k * lanes;
+        store(load(node) + select(here, depth, 0.0), node);
+      }
+    }
+    if (a.grid) {
+      Real sum = 0.0;
+      const float part = 1 / static_cast<float>(a.samples);
+      for (int k = 1; k < nz; ++k) {
+        Real met = 0.0;
+        for (int n = 0; n < a.samples; ++n) {
+          const Real t = distance(static_cast<float>(k - 1) + (static_cast<float>(n) + 0.5F) * part);
+          met += grid.extinction_at(along(rays.from, rays.d, t));
+        }
+        sum = fma(met, rays.rate * (step * part), sum);
+        float* node = line + k * lanes;
+        store(load(node) + sum, node);
+      }
+    }
+    const int count = std::min(lanes, nx - i);
+    for (int k = 0; k < nz; ++k) {
+      const std::size_t at = static_cast<std::size_t>((row.face * nz + k) * ny + row.j) * static_cast<std::size_t>(nx);
+      std::copy_n(line + k * lanes, count, depths + at + static_cast<std::size_t>(i));
+    }
+  }
+}
+
+static void line_sums(const OpticalDepthPropagation& a, const CellLine& line, float cell, int light_at) {
+  const int nx = static_cast<int>(a.volume.nodes.x);
+  const Real y = line.y, z = line.z;
+  for (int i = 0; i < nx; i += lanes) {
+    const Real at = first_lanes() + static_cast<float>(i);
+    const Real x = a.light.directional ? Real(line.x) : fma(at, cell, line.x);
+    const Real length = sqrt(fma(x, x, fma(y, y, z * z)));
+    const Real inverse = 1.0 / max(length, 1e-15);
+    const Mask in_slab = abs(at - static_cast<float>(light_at)) < 0.5;
+    const Real wx = select(in_slab, 0.0, abs(x) * inverse);
+    const Real wy = line.slab_y ? Real(0.0) : abs(y) * inverse, wz = line.slab_z ? Real(0.0) : abs(z) * inverse;
+    Real others = 0.0;
+    if (line.nearer_z) others = wz * load(line.nearer_z + i);
+    if (line.nearer_y) others = fma(wy, load(line.nearer_y + i), others);
+    const Real weights = (wx + wy) + wz, extinction = load(line.extinction + i);
+    const Mask own_cell = weights <= 0.0;
+    const Real divisor = select(own_cell, 1.0, weights);
+    store(select(own_cell, extinction * length, depth_beside(static_cast<int>(a.scheme), extinction * cell, others, divisor)),
+          line.sums + i);
+    store(wx / divisor, line.shares + i);
+  }
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace airlight {
+
+HWY_EXPORT(ray_row);
+HWY_EXPORT(line_sums);
+
+namespace {
+
+constexpr int most_lanes = 16;
+
+// In which layer of cells along an axis the light is: -1 before the first, n behind the last.
+int layer_of(float light, float cell, int n) {
+  return static_cast<int>(std::clamp(std::floor(light / cell), -1.0F, static_cast<float>(n)));
+}
+
+// Layers of cells, the light's first, then away from it.
+template <class Body>
+void outward(int light_at, int n, Body&& body) {
+  for (int i = std::max(light_at, 0); i < n; ++i) body(i, i > light_at ? i - 1 : -1);
+  for (int i = std::min(light_at, n) - 1; i >= 0; --i) body(i, i + 1 < n ? i + 1 : -1);
+}
+
+void sweep(const OpticalDepthPropagation& a, const float* voxels, float* depths, Simd simd) {
+  const int nx = static_cast<int>(a.volume.nodes.x), ny = static_cast<int>(a.volume.nodes.y),
+            nz = static_cast<int>(a.volume.nodes.z);
+  const float cell = 1 / a.volume.rows[0].x;
+  const glm::vec3 light = a.light.vector;
+  int at[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = static_cast<int>(a.volume.nodes[axis]);
+    at[axis] = a.light.directional ? (light[axis] > 0 ? -1 : n) : layer_of(light[axis], cell, n);
+  }
+  const std::size_t stride = static_cast<std::size_t>(nx + most_lanes), plane = stride * static_cast<std::size_t>(ny);
+  std::vector<float> here(plane), before(plane), sums(stride), shares(stride);
+  const auto from_light = [&](int axis, int i) {
+    return a.light.directional ? light[axis] : (static_cast<float>(i) + 0.5F) * cell - light[axis];
+  };
+  int last = -1;
+  outward(at[2], nz, [&](int k, int nearer_k) {
+    // The light's own layer comes first, and again before those on its other side.
+    if (nearer_k >= 0 && nearer_k != last) {
+      for (int j = 0; j < ny; ++j) {
+        const float* from = depths + static_cast<std::size_t>(nx) * static_cast<std::size_t>(nearer_k * ny + j);
+        std::copy_n(from, nx, here.data() + stride * static_cast<std::size_t>(j));
+      }
+    }
+    std::swap(here, before);
+    outward(at[1], ny, [&](int j, int nearer_j) {
+      float* row = here.data() + stride * static_cast<std::size_t>(j);
+      CellLine line;
+      const std::size_t ring_row =
+          static_cast<std::size_t>(j + 1) + static_cast<std::size_t>(ny + 2) * static_cast<std::size_t>(k + 1);
+      line.extinction = voxels + 3 + static_cast<std::size_t>(nx + 2) * ring_row + 1;
+      line.nearer_y = nearer_j >= 0 ? here.data() + stride * static_cast<std::size_t>(nearer_j) : nullptr;
+      line.nearer_z = nearer_k >= 0 ? before.data() + stride * static_cast<std::size_t>(j) : nullptr;
+      line.x = from_light(0, 0), line.y = from_light(1, j), line.z = from_light(2, k);
+      line.slab_y = j == at[1], line.slab_z = k == at[2];
+      line.sums = sums.data(), line.shares = shares.data();
+      entry(HWY_DISPATCH_TABLE(line_sums), simd)(a, line, cell, at[0]);
+      outward(at[0], nx, [&](int i, int nearer) {
+        const auto n = static_cast<std::size_t>(i);
+        row[n] = nearer < 0 ? sums[n] : std::fma(shares[n], row[nearer], sums[n]);
+      });
+      std::copy_n(row, nx, depths + static_cast<std::size_t>(nx) * static_cast<std::size_t>(k * ny + j));
+    });
+    last = k;
+  });
+}
+
+}  // namespace
+
+void run_volume(const OpticalDepthPropagation& a, const BufferView& view, Workers& workers, Simd simd) {
+  const DepthVolume& v = a.volume;
+  float* out = view.made(a.depths);
+  for (int axis = 0; axis < 3; ++axis) {
+    out[axis] = v.first[axis];
+    out[3 + axis] = v.scale[axis];
+    out[6 + axis] = v.nodes[axis];
+  }
+  const float* voxels = view.floats(a.voxels);
+  if (v.kind == DepthVolume::Kind::cells) {
+    sweep(a, voxels, out + 9, simd);
+    return;
+  }
+  const int rows = static_cast<int>(v.nodes.y);
+  std::vector<std::vector<float>> lines(static_cast<std::size_t>(workers.threads()));
+  for (std::vector<float>& line : lines) line.resize(static_cast<std::size_t>(v.nodes.z) * most_lanes);
+  workers.each(v.faces() * rows, [&](int n, int worker) {
+    entry(HWY_DISPATCH_TABLE(ray_row), simd)(a, voxels, RayRow{n / rows, n % rows},
+                                             lines[static_cast<std::size_t>(worker)].data(), out + 9);
+  });
+}
+
+}  // namespace airlight
+#endif
