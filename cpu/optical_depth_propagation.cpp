@@ -22,6 +22,8 @@ namespace airlight {
 
 namespace {
 
+constexpr int most_lanes = 16;
+
 // Rays of one row of a face.
 struct RayRow {
   int face = 0, j = 0;
@@ -82,7 +84,7 @@ struct LightRays {
 
 }  // namespace
 
-// Depths of one row of rays: `line` has room for the nodes of a ray, a vector each.
+// Depths of one row of rays, sharpened along them: `line` has room for the nodes of a ray, a vector each.
 static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRow row, float* line, float* depths) {
   const DepthVolume& v = a.volume;
   const int nx = static_cast<int>(v.nodes.x), ny = static_cast<int>(v.nodes.y), nz = static_cast<int>(v.nodes.z);
@@ -128,11 +130,38 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
         store(load(node) + sum, node);
       }
     }
+    Real before = load(line);
+    for (int k = 1; k < nz - 1; ++k) {
+      float* node = line + k * lanes;
+      const Real here = load(node);
+      store(sharpened_depth(before, here, load(node + lanes)), node);
+      before = here;
+    }
     const int count = std::min(lanes, nx - i);
     for (int k = 0; k < nz; ++k) {
       const std::size_t at = static_cast<std::size_t>((row.face * nz + k) * ny + row.j) * static_cast<std::size_t>(nx);
       std::copy_n(line + k * lanes, count, depths + at + static_cast<std::size_t>(i));
     }
+  }
+}
+
+// Sharpens a plane of nodes along its own two axes. `scratch`: two planes and a row, each row of nx + most_lanes.
+static void sharpen_plane(int nx, int ny, float* plane, float* scratch) {
+  const std::ptrdiff_t stride = nx + most_lanes;
+  float *given = scratch, *along_x = scratch + stride * ny, *result = along_x + stride * ny;
+  for (int j = 0; j < ny; ++j) {
+    float *from = given + stride * j, *to = along_x + stride * j;
+    std::copy_n(plane + static_cast<std::ptrdiff_t>(nx) * j, nx, from);
+    for (int i = 1; i < nx - 1; i += lanes) store(sharpened_depth(load(from + i - 1), load(from + i), load(from + i + 1)), to + i);
+    to[0] = from[0];
+    to[nx - 1] = from[nx - 1];
+  }
+  for (int j = 0; j < ny; ++j) {
+    const float* row = along_x + stride * j;
+    const bool inside = j > 0 && j < ny - 1;
+    for (int i = 0; inside && i < nx; i += lanes)
+      store(sharpened_depth(load(row - stride + i), load(row + i), load(row + stride + i)), result + i);
+    std::copy_n(inside ? result : row, nx, plane + static_cast<std::ptrdiff_t>(nx) * j);
   }
 }
 
@@ -166,11 +195,10 @@ HWY_AFTER_NAMESPACE();
 namespace airlight {
 
 HWY_EXPORT(ray_row);
+HWY_EXPORT(sharpen_plane);
 HWY_EXPORT(line_sums);
 
 namespace {
-
-constexpr int most_lanes = 16;
 
 // In which layer of cells along an axis the light is: -1 before the first, n behind the last.
 int layer_of(float light, float cell, int n) {
@@ -246,12 +274,18 @@ void run_volume(const OpticalDepthPropagation& a, const BufferView& view, Worker
     sweep(a, voxels, out + 9, simd);
     return;
   }
-  const int rows = static_cast<int>(v.nodes.y);
-  std::vector<std::vector<float>> lines(static_cast<std::size_t>(workers.threads()));
-  for (std::vector<float>& line : lines) line.resize(static_cast<std::size_t>(v.nodes.z) * most_lanes);
-  workers.each(v.faces() * rows, [&](int n, int worker) {
-    entry(HWY_DISPATCH_TABLE(ray_row), simd)(a, voxels, RayRow{n / rows, n % rows},
-                                             lines[static_cast<std::size_t>(worker)].data(), out + 9);
+  const int nx = static_cast<int>(v.nodes.x), ny = static_cast<int>(v.nodes.y), nz = static_cast<int>(v.nodes.z);
+  const std::size_t of_a_ray = static_cast<std::size_t>(nz) * most_lanes;
+  const std::size_t of_a_plane = static_cast<std::size_t>(nx + most_lanes) * static_cast<std::size_t>(2 * ny + 1);
+  std::vector<std::vector<float>> scratch(static_cast<std::size_t>(workers.threads()));
+  for (std::vector<float>& s : scratch) s.resize(std::max(of_a_ray, of_a_plane));
+  workers.each(v.faces() * ny, [&](int n, int worker) {
+    entry(HWY_DISPATCH_TABLE(ray_row), simd)(a, voxels, RayRow{n / ny, n % ny}, scratch[static_cast<std::size_t>(worker)].data(),
+                                             out + 9);
+  });
+  workers.each(v.faces() * nz, [&](int n, int worker) {
+    float* plane = out + 9 + static_cast<std::ptrdiff_t>(nx) * ny * n;
+    entry(HWY_DISPATCH_TABLE(sharpen_plane), simd)(nx, ny, plane, scratch[static_cast<std::size_t>(worker)].data());
   });
 }
 

@@ -8,6 +8,8 @@ namespace airlight {
 
 namespace {
 
+constexpr GLuint sharpened_number = 43;  // a buffer of this step
+
 // A layer of cells after the other, away from the light's: none reads what another of the same distance writes.
 void sweep(const OpticalDepthPropagation& a, StepRunner& r, const std::vector<std::string>& defines, const Progress& progress) {
   Program& program = r.compute("gpu/optical_depth_propagation.glsl", defines);
@@ -56,16 +58,33 @@ void run(const OpticalDepthPropagation& a, StepRunner& r, const Progress& progre
   const std::size_t rays =
       static_cast<std::size_t>(v.faces()) * static_cast<std::size_t>(v.nodes.x) * static_cast<std::size_t>(v.nodes.y);
   r.each(r.compute("gpu/optical_depth_propagation.glsl", with("GRID")), rays, 64);
-  if (a.gaussians.empty()) return;
-  Program& gaussians = r.compute("gpu/optical_depth_propagation.glsl", with("GAUSSIANS"));
-  constexpr int most = LoopBudget::most / LoopBudget::rays_at_once;
-  const int all = static_cast<int>(a.gaussians.size());
-  for (int first = 0; first < all; first += most) {
-    progress.check();
-    gaussians.set("first_gaussian", first);
-    gaussians.set("end_gaussian", std::min(first + most, all));
-    r.each(gaussians, rays * static_cast<std::size_t>(v.nodes.z), 64);
+  const std::size_t nodes = rays * static_cast<std::size_t>(v.nodes.z);
+  if (!a.gaussians.empty()) {
+    Program& gaussians = r.compute("gpu/optical_depth_propagation.glsl", with("GAUSSIANS"));
+    constexpr int most = LoopBudget::most / LoopBudget::rays_at_once;
+    const int all = static_cast<int>(a.gaussians.size());
+    for (int first = 0; first < all; first += most) {
+      progress.check();
+      gaussians.set("first_gaussian", first);
+      gaussians.set("end_gaussian", std::min(first + most, all));
+      r.each(gaussians, nodes, 64);
+    }
   }
+  // Three times from one buffer to the other, and back.
+  Program& sharpen = r.compute("gpu/optical_depth_propagation.glsl", {"SHARPEN"});
+  r.reserve(sharpened_number, a.depths.bytes);
+  for (const int axis : {2, 0, 1}) {
+    sharpen.set("axis", axis);
+    if (axis == 0) {
+      r.bind(0, sharpened_number);
+      r.storage(1, a.depths);
+    } else {
+      r.storage(0, a.depths);
+      r.bind(1, sharpened_number);
+    }
+    r.each(sharpen, nodes, 64);
+  }
+  r.copy_back(sharpened_number, r.buffer_name(a.depths), a.depths.bytes);
 }
 
 }  // namespace airlight

@@ -1,5 +1,5 @@
-// Three programs: GRID, an invocation a ray of the light's; GAUSSIANS, one a node, after it; CELLS, one a row of cells, for each distance from the
-// light's cell.
+// Four programs: GRID, an invocation a ray of the light's; GAUSSIANS and SHARPEN, one a node, after it; CELLS, one a row of cells, for each distance
+// from the light's cell.
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/medium.glsl"
@@ -19,7 +19,7 @@ uniform int first_item;
 int item() { return first_item + int(gl_WorkGroupID.x) * 64 + int(gl_LocalInvocationIndex); }
 ivec3 nodes() { return ivec3(nodes_scheme.xyz); }
 
-#ifndef CELLS
+#if defined(GRID) || defined(GAUSSIANS)
 // The light's ray through a node, as in cpu/optical_depth_propagation.cpp: from + t d, planes `rate` z apart.
 void light_ray(int face, int i, int j, out vec3 from, out vec3 d, out float rate) {
   float u = fma(float(i), 1.0 / scale_samples.x, first_kind.x);
@@ -112,6 +112,25 @@ void main() {
     sum += gaussian_between(lateral, erf_(-foot * inverse), erf_(min(t - foot, reach) * inverse));
   }
   depths[9 + at] += sum;
+}
+#endif
+
+#ifdef SHARPEN
+layout(std430, binding = 1) buffer SharpenedBuffer { float sharpened[]; };  // in the same layout
+
+uniform int axis;
+
+void main() {
+  ivec3 n = nodes();
+  int faces = first_kind.w == 3.0 ? 6 : 1;
+  int at = item();
+  if (at >= n.x * n.y * n.z * faces) return;
+  if (at < 9) sharpened[at] = depths[at];
+  int stride = axis == 0 ? 1 : axis == 1 ? n.x : n.x * n.y;
+  int along = at / stride % n[axis];
+  float here = depths[9 + at];
+  if (along > 0 && along < n[axis] - 1) here = sharpened_depth(depths[9 + at - stride], here, depths[9 + at + stride]);
+  sharpened[9 + at] = here;
 }
 #endif
 

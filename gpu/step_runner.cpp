@@ -113,6 +113,10 @@ void StepRunner::copy(GLuint from, GLuint number, std::size_t at, std::size_t by
   gl_.CopyNamedBufferSubData(from, small_.at(number).name(), 0, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes));
 }
 
+void StepRunner::copy_back(GLuint number, GLuint to, std::size_t bytes) {
+  gl_.CopyNamedBufferSubData(small_.at(number).name(), to, 0, 0, static_cast<GLsizeiptr>(bytes));
+}
+
 std::size_t StepRunner::storage_limit() const {
   GLint64 bytes = 0;
   gl_.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);

@@ -62,6 +62,7 @@ class StepRunner {
   void read_storage(GLuint number, std::span<std::byte>);
   void write_storage(GLuint number, std::size_t at, std::span<const std::byte>);
   void copy(GLuint from_buffer, GLuint number, std::size_t at, std::size_t bytes);  // the beginning of a buffer to `at`
+  void copy_back(GLuint number, GLuint to_buffer, std::size_t bytes);
   std::size_t storage_limit() const;                                                // [byte] of one storage buffer
   template <class T>
   void block(GLuint binding, const T& values) {  // std140
