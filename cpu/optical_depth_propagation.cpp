@@ -34,7 +34,6 @@ struct CellLine {
   const float* extinction;
   const float *nearer_y, *nearer_z;  // depths of the lines beside it that are nearer to the light; null: 0
   float x, y, z;                     // from the light to the first centre [m]; of a directional one the way that it shines
-  bool slab_y, slab_z;               // the light shines within the layer of cells: nothing comes from beside it along that axis
   float *sums, *shares;
 };
 
@@ -165,17 +164,17 @@ static void sharpen_plane(int nx, int ny, float* plane, float* scratch) {
   }
 }
 
-static void line_sums(const OpticalDepthPropagation& a, const CellLine& line, float cell, int light_at) {
+static void line_sums(const OpticalDepthPropagation& a, const CellLine& line, float cell) {
   const int nx = static_cast<int>(a.volume.nodes.x);
-  const Real y = line.y, z = line.z;
+  const Real y = line.y, z = line.z, slab = a.light.directional ? Real(-1.0) : slab_share() * cell;
   for (int i = 0; i < nx; i += lanes) {
     const Real at = first_lanes() + static_cast<float>(i);
     const Real x = a.light.directional ? Real(line.x) : fma(at, cell, line.x);
     const Real length = sqrt(fma(x, x, fma(y, y, z * z)));
     const Real inverse = 1.0 / max(length, 1e-15);
-    const Mask in_slab = abs(at - static_cast<float>(light_at)) < 0.5;
-    const Real wx = select(in_slab, 0.0, abs(x) * inverse);
-    const Real wy = line.slab_y ? Real(0.0) : abs(y) * inverse, wz = line.slab_z ? Real(0.0) : abs(z) * inverse;
+    const Mask beside = abs(x) > slab;  // the cells between which the light is get nothing from each other
+    const Real wx = select(beside, abs(x) * inverse, 0.0);
+    const Real wy = select(abs(y) > slab, abs(y) * inverse, 0.0), wz = select(abs(z) > slab, abs(z) * inverse, 0.0);
     Real others = 0.0;
     if (line.nearer_z) others = wz * load(line.nearer_z + i);
     if (line.nearer_y) others = fma(wy, load(line.nearer_y + i), others);
@@ -246,9 +245,8 @@ void sweep(const OpticalDepthPropagation& a, const float* voxels, float* depths,
       line.nearer_y = nearer_j >= 0 ? here.data() + stride * static_cast<std::size_t>(nearer_j) : nullptr;
       line.nearer_z = nearer_k >= 0 ? before.data() + stride * static_cast<std::size_t>(j) : nullptr;
       line.x = from_light(0, 0), line.y = from_light(1, j), line.z = from_light(2, k);
-      line.slab_y = j == at[1], line.slab_z = k == at[2];
       line.sums = sums.data(), line.shares = shares.data();
-      entry(HWY_DISPATCH_TABLE(line_sums), simd)(a, line, cell, at[0]);
+      entry(HWY_DISPATCH_TABLE(line_sums), simd)(a, line, cell);
       outward(at[0], nx, [&](int i, int nearer) {
         const auto n = static_cast<std::size_t>(i);
         row[n] = nearer < 0 ? sums[n] : std::fma(shares[n], row[nearer], sums[n]);

@@ -158,13 +158,12 @@ ivec3 nearer(ivec3 p, int axis, int light_at) {
 }
 
 void cell_depth(ivec3 p, ivec3 n) {
-  ivec3 light_at = ivec3(light_x, light_y, light_z);
   float cell = 1.0 / rows[0].x;
   vec3 way = vec3(from_light(0, p.x, cell), from_light(1, p.y, cell), from_light(2, p.z, cell));
   float length = sqrt(fma(way.x, way.x, fma(way.y, way.y, way.z * way.z)));
   vec3 w = abs(way) * (1.0 / max(length, 1e-15));
   for (int axis = 0; axis < 3; ++axis) {
-    if (p[axis] == light_at[axis]) w[axis] = 0.0;
+    if (light_directional.w == 0.0 && abs(way[axis]) <= slab_share() * cell) w[axis] = 0.0;
   }
   float others = fma(w.y, depth_of(nearer(p, 1, light_y), n), w.z * depth_of(nearer(p, 2, light_z), n));
   float weights = (w.x + w.y) + w.z;

@@ -44,6 +44,14 @@ inline constexpr Tolerance tolerances[] = {
      "lamp stands in a Gaussian little larger than one of 32 steps"},
     {"truth_gaussians", 0.02, "relative RMSE of gaussian-airlight by default, four nodes a panel: what the knob promises"},
     {"truth_gaussians_fine", 0.002, "the same with eight nodes"},
+    {"truth_propagation", 0.015,
+     "relative RMSE of opacity-propagation by default: steps that are not short beside the free path, and lamps nearer to what "
+     "they "
+     "light than a few cells"},
+    {"truth_propagation_fine", 0.002, "the same with 160 cells and 256 steps"},
+    {"depth_volume_32", 0.01,
+     "relative RMS of optical depths looked up in a volume of 32 cells an edge, radii of three cells and more"},
+    {"depth_volume_64", 0.003, "the same with 64"},
     {"truth_airlight_everywhere", 0.002,
      "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
      "airlight"},
@@ -55,6 +63,11 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_stored", 1e-6,
      "of the image's mean, beyond rounding to float: the reference asks for 1e-9 of a pixel, C libraries differ in a last digit"},
     {"riemann_sum", 1e-8, "relative, beyond half a step at each shadow boundary: rounding of sums of a million terms"},
+    {"depth_lookup", 4e-6, "beside the largest value: a quotient and a difference before linear lookups with slopes of 1 a node"},
+    {"injected_mass", 4e-6,
+     "of a Gaussian's whole: differences of erf_, whose digits end at 1e-7, of cells a twentieth of the radius; a hundred times "
+     "more "
+     "where a cell is about as wide as the radius, whose negative values are left out"},
     {"grid_closed_form", 1e-11, "relative: the reference asks for 1e-11 of each integral, and a constant is exact in it"},
     {"grid_depth", 1e-8, "optical depth: midpoint sums of a field with kinks at every cell, in steps of less than 1/2000 cell"},
     {"grid_riemann_sum", 2e-5,

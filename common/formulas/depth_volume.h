@@ -72,3 +72,6 @@ FORMULA real depth_beside(int scheme, real own, real others, real weights) {
   if (scheme == 0) return own + others / weights;
   return (own + others) / weights;
 }
+
+// Of a cell's size: nearer to the light along an axis than that, a cell gets nothing from its neighbour there, which the light does not shine through.
+FORMULA real slab_share() { return 0.5001; }

@@ -193,7 +193,7 @@ Technique opacity_propagation() {
   t.knobs = {
       {.name = "resolution",
        .kind = Knob::Kind::integer,
-       .standard = "48",
+       .standard = "64",
        .least = 2,
        .most = 256,
        .choices = {},
@@ -201,7 +201,7 @@ Technique opacity_propagation() {
        .sweep = {"12", "16", "24", "32", "48", "64", "96", "128"}},
       {.name = "steps",
        .kind = Knob::Kind::integer,
-       .standard = "32",
+       .standard = "64",
        .least = 1,
        .most = 4096,
        .choices = {},

@@ -75,5 +75,13 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
     r[0] = step_phase(kind, g, a[0], a[1], sqrt(fma(a[0], a[0], a[2] * a[2])), sqrt(fma(a[1], a[1], a[2] * a[2])), a[2]);
   }
   if (formula == 32) r[0] = step_transmittance(a[0], a[1], a[2], a[3]);
+  if (formula == 40) r[0] = depth_in_volume(t, kind, a[0], a[1], a[2]);
+  if (formula == 41) {
+    real face = cube_face(a[0], a[1], a[2], r[0], r[1], r[2]);
+    r[0] = select(face < 6.0, r[0], real(1e30));
+  }
+  if (formula == 42) r[0] = sharpened_depth(a[0], a[1], a[2]);
+  if (formula == 43) r[0] = injected_gaussian(a[0], a[1], a[2]);
+  if (formula == 44) r[0] = depth_beside(kind, a[0], a[1], a[2]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

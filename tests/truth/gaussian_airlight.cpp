@@ -1,4 +1,4 @@
-// gaussian-airlight against the reference: by default, and how its error falls with the nodes.
+// gaussian-airlight and opacity-propagation against the reference: by default, and how their errors fall.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +22,24 @@ Extent extent_for(const Scene& scene) {
 }
 
 class GaussianTruth : public testing::TestWithParam<TruthScene> {};
+
+// By default, and with two and a half times the cells and four times the steps.
+void hold_propagation(const Scene& scene, Extent extent, const ReferenceFrame& truth, Renderer& renderer, bool fine_too) {
+  for (const bool fine : {false, true}) {
+    if (fine && !fine_too) continue;
+    RenderSettings settings;
+    settings.technique = "opacity-propagation";
+    if (fine) settings.knobs = {{"resolution", "160"}, {"steps", "256"}};
+    settings.resolution = extent;
+    settings.images = {"beauty", "airlight"};
+    const Frame frame = renderer.render(scene, settings);
+    const double beauty = relative_error(frame.image("beauty"), truth, parts[0]).off_edges;
+    const double airlight = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
+    std::printf("%s, opacity-propagation %s: relative RMSE %.5f %%, of the airlight alone %.5f %%\n", frame.device.c_str(),
+                fine ? "resolution 160, steps 256" : "by default", 100 * beauty, 100 * airlight);
+    EXPECT_FALSE(!(beauty < tolerance(fine ? "truth_propagation_fine" : "truth_propagation"))) << frame.device;
+  }
+}
 
 TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
   const Scene scene = GetParam().make();
@@ -56,6 +74,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
         EXPECT_FALSE(!(beauty < tolerance("truth_gaussians_fine"))) << backend;
       }
     }
+    hold_propagation(scene, extent, truth, renderer, backend == std::string("cpu"));
     if (!casters) continue;
     // The comparison sees shadows.
     RenderSettings unshadowed;

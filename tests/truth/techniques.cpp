@@ -100,6 +100,13 @@ TEST_P(Marching, ConvergesToTheTruth) {
   if (GetParam().name == "dense_fog") settings.knobs = {{"steps", "512"}};
   if (GetParam().name == "box_in_blob") settings.knobs = {{"steps", "128"}};  // a lamp in a Gaussian of half a metre, 60 m of ray
   hold(scene, settings, truth, {"truth_marching", "truth_marching", "truth_marching", "truth_marching"}, 1e-9);
+  if (scene.medium.grid || !scene.medium.gaussians.empty()) {
+    std::printf("opacity-propagation\n");
+    RenderSettings propagation;
+    propagation.technique = "opacity-propagation";
+    if (GetParam().name == "box_in_blob") propagation.knobs = {{"steps", "128"}};
+    hold(scene, propagation, truth, {"truth_propagation", "truth_propagation", "truth_propagation", "truth_propagation"}, 1e-9);
+  }
   Renderer renderer({.backend = "cpu"});
   settings.resolution = extent;
   std::vector<double> errors;

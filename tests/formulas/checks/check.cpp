@@ -16,6 +16,7 @@ std::vector<Check> all_checks() {
   add_airlight_checks(checks);
   add_gaussian_checks(checks);
   add_marching_checks(checks);
+  add_depth_volume_checks(checks);
   return checks;
 }
 

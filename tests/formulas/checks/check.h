@@ -57,6 +57,11 @@ enum class Formula : int {
   step_transmittance = 32,     // front, tau, share, beside
   grid_bound = 33,             // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
   step_phase = 34,             // ends from the foot, h
+  depth_in_volume = 40,        // place; the table as depth_in_volume() takes it; the phase's kind is the volume's
+  cube_face = 41,              // place -> a, b, c
+  sharpened_depth = 42,        // before, here, after
+  injected_gaussian = 43,      // inverse radius, offset, cell
+  depth_beside = 44,           // own, others, weights; the phase's kind is the scheme
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -98,6 +103,7 @@ struct Check {
 // Of every topic, in the order of common/formulas/formulas.h.
 std::vector<Check> all_checks();
 
+void add_depth_volume_checks(std::vector<Check>&);
 void add_elementary_checks(std::vector<Check>&);
 void add_camera_checks(std::vector<Check>&);
 void add_triangle_checks(std::vector<Check>&);
