@@ -48,7 +48,7 @@ inline constexpr Tolerance tolerances[] = {
      "relative RMSE of opacity-propagation by default: steps that are not short beside the free path, and lamps nearer to what "
      "they "
      "light than a few cells"},
-    {"truth_propagation_fine", 0.002, "the same with 160 cells and 256 steps"},
+    {"truth_propagation_fine", 0.002, "the same with 160 cells and 512 steps"},
     {"depth_volume_32", 0.01,
      "relative RMS of optical depths looked up in a volume of 32 cells an edge, radii of three cells and more"},
     {"depth_volume_64", 0.003, "the same with 64"},

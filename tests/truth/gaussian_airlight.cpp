@@ -23,20 +23,20 @@ Extent extent_for(const Scene& scene) {
 
 class GaussianTruth : public testing::TestWithParam<TruthScene> {};
 
-// By default, and with two and a half times the cells and four times the steps.
+// By default, and with two and a half times the cells and eight times the steps.
 void hold_propagation(const Scene& scene, Extent extent, const ReferenceFrame& truth, Renderer& renderer, bool fine_too) {
   for (const bool fine : {false, true}) {
     if (fine && !fine_too) continue;
     RenderSettings settings;
     settings.technique = "opacity-propagation";
-    if (fine) settings.knobs = {{"resolution", "160"}, {"steps", "256"}};
+    if (fine) settings.knobs = {{"resolution", "160"}, {"steps", "512"}};
     settings.resolution = extent;
     settings.images = {"beauty", "airlight"};
     const Frame frame = renderer.render(scene, settings);
     const double beauty = relative_error(frame.image("beauty"), truth, parts[0]).off_edges;
     const double airlight = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
     std::printf("%s, opacity-propagation %s: relative RMSE %.5f %%, of the airlight alone %.5f %%\n", frame.device.c_str(),
-                fine ? "resolution 160, steps 256" : "by default", 100 * beauty, 100 * airlight);
+                fine ? "resolution 160, steps 512" : "by default", 100 * beauty, 100 * airlight);
     EXPECT_FALSE(!(beauty < tolerance(fine ? "truth_propagation_fine" : "truth_propagation"))) << frame.device;
   }
 }

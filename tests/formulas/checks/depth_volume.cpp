@@ -100,7 +100,8 @@ Measured measure_sharpened(const Run& run) {
   Columns in, next;
   std::vector<double> means;
   for (int i = 0; i < 2000; ++i) {
-    const double a = random.number(2, 4), b = random.number(-1, 1), c = random.number(-0.3, 0.3);
+    const auto fraction = [&](double from, double to) { return std::floor(1024 * random.number(from, to)) / 1024; };
+    const double a = fraction(2, 4), b = fraction(-1, 1), c = fraction(-0.3, 0.3);
     const auto f = [&](double x) { return a + x * (b + x * c); };
     add_call(in, f(-1), f(0), f(1));
     add_call(next, f(0), f(1), f(2));
@@ -136,8 +137,8 @@ Measured measure_injected(const Run& run) {
       sum += found[0][i] * as_float(cell);
       if (found[0][i] < 0) sum = HUGE_VAL;
     }
-    // What a coarse cell's sharpening would take below 0 is left: 1e-3 at most where cells are as wide as the radius.
-    m.add(std::fabs(sum / 1.7724538509055160 - 1) * (cell > 0.6 && cell < 2 ? 1e-2 : 1), [&] { return place({{"cell", cell}}); });
+    // Where cells are about as wide as the radius, what sharpening would take below 0 is left.
+    m.add(std::fabs(sum / 1.7724538509055160 - 1) * (cell > 0.6 && cell < 2 ? 1e-3 : 1), [&] { return place({{"cell", cell}}); });
   }
   return m;
 }
