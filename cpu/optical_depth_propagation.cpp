@@ -118,13 +118,17 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
     if (a.grid) {
       Real sum = 0.0;
       const float part = 1 / static_cast<float>(a.samples);
+      const Stretch inside = grid.stretch(rays.from, rays.d, 1e15);
       for (int k = 1; k < nz; ++k) {
-        Real met = 0.0;
-        for (int n = 0; n < a.samples; ++n) {
-          const Real t = distance(static_cast<float>(k - 1) + (static_cast<float>(n) + 0.5F) * part);
-          met += grid.extinction_at(along(rays.from, rays.d, t));
+        const Mask meets = (distance(static_cast<float>(k)) > inside.begin) && (distance(static_cast<float>(k - 1)) < inside.end);
+        if (any_lane(meets)) {
+          Real met = 0.0;
+          for (int n = 0; n < a.samples; ++n) {
+            const Real t = distance(static_cast<float>(k - 1) + (static_cast<float>(n) + 0.5F) * part);
+            met += grid.extinction_at(along(rays.from, rays.d, t));
+          }
+          sum = fma(select(meets, met, 0.0), rays.rate * (step * part), sum);
         }
-        sum = fma(met, rays.rate * (step * part), sum);
         float* node = line + k * lanes;
         store(load(node) + sum, node);
       }
@@ -151,7 +155,8 @@ static void sharpen_plane(int nx, int ny, float* plane, float* scratch) {
   for (int j = 0; j < ny; ++j) {
     float *from = given + stride * j, *to = along_x + stride * j;
     std::copy_n(plane + static_cast<std::ptrdiff_t>(nx) * j, nx, from);
-    for (int i = 1; i < nx - 1; i += lanes) store(sharpened_depth(load(from + i - 1), load(from + i), load(from + i + 1)), to + i);
+    for (int i = 1; i < nx - 1; i += lanes)
+      store(sharpened_depth(load(from + i - 1), load(from + i), load(from + i + 1)), to + i);
     to[0] = from[0];
     to[nx - 1] = from[nx - 1];
   }

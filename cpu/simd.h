@@ -114,22 +114,38 @@ HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, r
   } while (!hn::AllFalse(di, waiting));
   return result;
 }
-// The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
+// The value between eight neighbouring elements of a box, as common/formulas/README.md tells. Neighbouring pixels mostly lie in
+// the same few cells: each is read once for all lanes that lie in it, until one serves too few; the others are gathered.
 HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
   const Ints di;
   const IntVec width = to_int(nx), layer_size = hn::Mul(width, to_int(ny));
   const IntVec index = hn::Add(to_int(x), hn::Add(hn::Mul(width, to_int(y)), hn::Mul(layer_size, to_int(z))));
+  HWY_ALIGN std::int32_t where[lanes], sizes[lanes], layers[lanes];
+  hn::Store(index, di, where);
+  hn::Store(width, di, sizes);
+  hn::Store(layer_size, di, layers);
+  const auto between = [](Real a, Real b, Real weight) HWY_ATTR { return fma(weight, b - a, a); };
+  Real result = 0.0;
+  auto waiting = hn::Eq(index, index);
+  for (bool few = false; !few;) {
+    const std::int32_t first = where[hn::FindFirstTrue(di, waiting)];
+    const auto here = hn::Eq(index, hn::Set(di, first));
+    few = hn::CountTrue(di, here) * 5 < lanes;
+    if (few) break;
+    const float* p = t + first;
+    const auto row = [&](const float* q) HWY_ATTR { return fma(u, Real(q[1] - q[0]), Real(q[0])); };
+    const Real near_layer = between(row(p), row(p + sizes[0]), v);
+    p += layers[0];
+    const Real value = between(near_layer, between(row(p), row(p + sizes[0]), v), w);
+    result = hn::IfThenElse(hn::RebindMask(Floats(), here), value.v, result.v);
+    waiting = hn::AndNot(here, waiting);
+    if (hn::AllFalse(di, waiting)) return result;
+  }
   const auto at = [&](IntVec i) HWY_ATTR { return Real(hn::GatherIndex(Floats(), t, i)); };
-  const auto row = [&](IntVec i) HWY_ATTR {
-    const Real a = at(i);
-    return fma(u, at(hn::Add(i, hn::Set(di, 1))) - a, a);
-  };
-  const auto layer = [&](IntVec i) HWY_ATTR {
-    const Real a = row(i);
-    return fma(v, row(hn::Add(i, width)) - a, a);
-  };
-  const Real a = layer(index);
-  return fma(w, layer(hn::Add(index, layer_size)) - a, a);
+  const auto row = [&](IntVec i) HWY_ATTR { return between(at(i), at(hn::Add(i, hn::Set(di, 1))), u); };
+  const auto layer = [&](IntVec i) HWY_ATTR { return between(row(i), row(hn::Add(i, width)), v); };
+  const Real gathered = between(layer(index), layer(hn::Add(index, layer_size)), w);
+  return hn::IfThenElse(hn::RebindMask(Floats(), waiting), gathered.v, result.v);
 }
 
 #include "common/formulas/elementary.h"

@@ -69,10 +69,14 @@ void main() {
   int samples = int(scale_samples.w);
   float part = 1.0 / float(samples);
   float sum = 0.0;
+#ifdef WITH_GRID
+  vec2 inside = grid_stretch(from, d, 1e15);
+#endif
   for (int k = 0; k < n.z; ++k) {
 #ifdef WITH_GRID
     float met = 0.0;
-    for (int m = 0; k > 0 && m < samples; ++m) {
+    bool meets = k > 0 && fma(float(k), size, first_kind.z) * rate > inside.x && fma(float(k - 1), size, first_kind.z) * rate < inside.y;
+    for (int m = 0; meets && m < samples; ++m) {
       float t = fma(float(k - 1) + (float(m) + 0.5) * part, size, first_kind.z) * rate;
       met += grid_extinction_at(fma(d, vec3(t), from));
     }

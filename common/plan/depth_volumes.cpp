@@ -11,8 +11,8 @@ namespace airlight {
 
 namespace {
 
-// A frustum wider than this is a cube about the light instead: its nodes would crowd in the middle.
-constexpr double widest = 1.5;
+// A frustum wider than this is a cube about the light instead, most of whose rays miss the box and cost nothing.
+constexpr double widest = 2.5;
 
 glm::dvec3 corner_of(const MediumBox& box, int n) {
   const glm::dvec3 size = box.size();
