@@ -50,6 +50,9 @@ enum class Formula : int {
   gaussian_depth = 29,         // inverse radius, h, from, to
   gaussian_depth_beyond = 35,  // inverse radius, h, from
   gaussian_whole = 36,         // extinction, radius
+  erf_printed = 50,            // those three by the printed error function
+  gaussian_depth_printed = 51,
+  gaussian_depth_beyond_printed = 52,
   light_density = 37,          // sigma_t, foot, h, x, more, mu -> of a point light, of a directional one
   ray_ended = 38,              // front, most, seen -> 1 or 0
   graded_step = 30,            // k, n, length, extinction
