@@ -52,6 +52,8 @@ inline constexpr Tolerance tolerances[] = {
     {"depth_volume_32", 0.01,
      "relative RMS of optical depths looked up in a volume of 32 cells an edge, radii of three cells and more"},
     {"depth_volume_64", 0.003, "the same with 64"},
+    {"truth_printed_erf", 0.001,
+     "what the printed error function adds: 2e-4 of the whole line through a Gaussian, where that is an optical depth of a few"},
     {"truth_airlight_everywhere", 0.002,
      "the airlight alone with edges: what a pixel at an edge sees or misses of the ray behind it is little of a picture's "
      "airlight"},
