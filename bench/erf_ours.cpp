@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
-// What was tried beside the polynomial of erf_ and not taken (docs/RESULTS.md): minimax polynomials of degree 4 about x = i / 4,
+// What was tried beside the quotient of erf_ and not taken (docs/RESULTS.md): minimax polynomials of degree 4 about x = i / 4,
 // i = 0..15, the first one through 0, held from 3.87 on. Constants by a permutation of lanes, which for AVX2 takes two and a
 // blend.
 constexpr float piece_constants[5][16] = {

@@ -98,7 +98,7 @@ inline constexpr Tolerance tolerances[] = {
     {"phong", 1e-6, "beside 1 - n log(r.l): log_, the product and exp_"},
     {"grid_value_double", 1e-12, "beside the largest value: the coordinate is rounded in both"},
     {"grid_value", 3e-6, "beside the largest value: a coordinate up to 13 cells is rounded three times"},
-    {"erf", 3.5e-7, "absolute: the polynomial's 1e-7 and the rounding of its fifteen steps"},
+    {"erf", 3.5e-7, "absolute: 1.7e-7 where it is held, elsewhere roundings of two polynomials, their quotient and its product"},
     {"erf_printed", 2.01e-4,
      "absolute, and of depths beside the whole line: the paper's clamp is where erfc is 2.0012e-4, its polynomial leaves 1.7e-4; "
      "roundings of 3e-7"},
