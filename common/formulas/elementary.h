@@ -35,19 +35,19 @@ FORMULA real log_(real x) {
 }
 
 // Error function: absolute error 3.4e-7. x P(x^2) / Q(x^2) on |x| <= 3.7, the minimax quotient of two polynomials of degree 5, 1e-8 away, the last digits of its
-// constants chosen for the least error with all roundings; beyond it the same as there, where erfc is 1.7e-7.
+// constants chosen for the least error with all roundings, fused or not; beyond it the same as there, where erfc is 1.7e-7.
 FORMULA real erf_(real x) {
   real t = min(max(x, -3.7), 3.7);
   real u = t * t;
-  real p = fma(u, real(2.2182087e-06), real(0.00028951894));
-  p = fma(u, p, real(0.0035737252));
-  p = fma(u, p, real(0.052207943));
-  p = fma(u, p, real(0.18479282));
-  p = fma(u, p, real(1.1283792));
-  real q = fma(u, real(4.0054383e-05), real(0.0011320785));
-  q = fma(u, q, real(0.01458549));
-  q = fma(u, q, real(0.11197118));
-  q = fma(u, q, real(0.49710095));
+  real p = fma(u, real(2.2182044e-06), real(0.00028951894));
+  p = fma(u, p, real(0.0035737266));
+  p = fma(u, p, real(0.052207965));
+  p = fma(u, p, real(0.18479283));
+  p = fma(u, p, real(1.1283787));
+  real q = fma(u, real(4.005438e-05), real(0.0011320785));
+  q = fma(u, q, real(0.014585496));
+  q = fma(u, q, real(0.11197122));
+  q = fma(u, q, real(0.49710074));
   q = fma(u, q, real(1.0));
   return t * p / q;
 }
