@@ -68,6 +68,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   const double coarseness = 64 / knobs.number("table_nodes");
   double error = 1e-4;
   if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
+  if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
   const double pixels = static_cast<double>(extent.width) * extent.height;
