@@ -11,7 +11,7 @@ FORMULA real gaussian_lateral(real inverse_radius, real h) {
   return exp_(-min(y * y, 60.0));
 }
 
-// The error function as Zhou et al. 2007 print it, for speed: absolute error 2.0e-4, the largest where it steps by 3e-5 to 1.
+// The error function as Zhou et al. 2007 print it below eq. 31, for speed: absolute error 2.0e-4, the largest where it steps by 3e-5 to 1.
 FORMULA real erf_printed(real x) {
   real t = min(max(x, -2.629639), 2.629639);
   real z = fma(t * t, real(0.289226), real(-1.0));

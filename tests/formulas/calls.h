@@ -57,6 +57,10 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 28) r[0] = gaussian_falloff(a[0], a[1]);
   if (formula == 29) r[0] = gaussian_depth(0, a[0], a[1], a[2], a[3]);
   if (formula == 35) r[0] = gaussian_depth_beyond(0, a[0], a[1], a[2]);
+  if (formula == 53) {
+    r[0] = min(a[0], a[1]);
+    r[1] = max(a[0], a[1]);
+  }
   if (formula == 50) r[0] = gaussian_erf(1, a[0]);
   if (formula == 51) r[0] = gaussian_depth(1, a[0], a[1], a[2], a[3]);
   if (formula == 52) r[0] = gaussian_depth_beyond(1, a[0], a[1], a[2]);

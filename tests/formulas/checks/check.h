@@ -53,6 +53,7 @@ enum class Formula : int {
   erf_printed = 50,            // those three by the printed error function
   gaussian_depth_printed = 51,
   gaussian_depth_beyond_printed = 52,
+  least_and_most = 53,      // a, b -> min, max
   light_density = 37,       // sigma_t, foot, h, x, more, mu -> of a point light, of a directional one
   ray_ended = 38,           // front, most, seen -> 1 or 0
   graded_step = 30,         // k, n, length, extinction
