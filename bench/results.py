@@ -109,6 +109,40 @@ def shadows(out):
     return "\n".join(lines_of(os.path.join(out, "shadows.txt"))).strip()
 
 
+def erf(out):
+    """Two tables of bench/erf.cpp: by name, a column an instruction set; the best of all repetitions, by CPU time."""
+    with open(os.path.join(out, "erf.json"), encoding="utf-8") as file:
+        runs = json.load(file)["benchmarks"]
+    found, targets, limit = {"erf": {}, "line": {}}, [], {}
+    for run in sorted((r for r in runs if r["run_type"] == "iteration"), key=lambda r: (r["family_index"], r["items_per_second"])):
+        kind, rest = run["name"].split("/", 1)
+        name, target = rest.rsplit("/", 1)
+        if kind == "limit":
+            limit[name, target] = run["items_per_second"]
+            continue
+        found[kind].setdefault(name, {})[target] = run
+        if target not in targets:
+            targets.append(target)
+
+    def rows(kind, text):
+        for name, by_target in found[kind].items():
+            cells, shares = [], []
+            for t in targets:
+                run = by_target.get(t)
+                cells.append(text(run["items_per_second"]) if run else "")
+                if run and "multiplications" in run and ("fma", t) in limit:
+                    shares.append(f"{100 * run['multiplications'] * run['items_per_second'] / limit['fma', t]:.0f} %")
+            error = max(run["error"] for run in by_target.values())
+            yield [name] + cells + [f"{error:.1e}", " / ".join(shares)]
+
+    share = "of the multiplication ports, " + " / ".join(t for t in targets if ("fma", t) in limit)
+    erfs = table(["erf [ns]"] + targets + ["largest error", share], rows("erf", lambda rate: f"{1e9 / rate:.3f}"))
+    lines = table(["Gaussian x ray [10^9/s]"] + targets + ["largest error", share], rows("line", lambda rate: f"{rate / 1e9:.3f}"))
+    ports = ", ".join(f"{t}: {limit['fma', t] / 1e9:.1f} multiply-adds, {limit['sqrt', t] / 1e9:.1f} square roots"
+                      for t in targets if ("fma", t) in limit)
+    return f"{erfs}\n\n{lines}\n\nPorts, measured in the same run [10^9/s]: {ports}."
+
+
 def choice(points, backend, error):
     """The fastest timed configuration of the backend within the error."""
     within = [p for p in points if p["backend"] == backend and p["ms"] and p["error"] is not None and p["error"] <= error]
@@ -159,7 +193,7 @@ def main():
         text = file.read()
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
-              "shadows": (shadows, "shadows.txt")}
+              "shadows": (shadows, "shadows.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

@@ -36,6 +36,7 @@ struct Scattering {
   const GaussLegendre& rule;
   std::span<const GaussianTerms> terms;
   RadianceBound bound;
+  int erf;
   bool one_albedo, emits;
   const float* tables;
   float* scratch;
@@ -71,6 +72,7 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       rule(quadrature),
       terms(of_gaussians),
       bound(algorithm),
+      erf(static_cast<int>(algorithm.erf)),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
@@ -99,7 +101,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
     store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
-    store(erf_(foot * -inverse), floats + start_at);
+    store(gaussian_erf(erf, foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
   if (!a.per_light) return;
@@ -112,7 +114,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
 HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
   const Real u = (t - load(floats + foot_at)) * terms[panels.met()[met]].inverse;
-  return gaussian_between(load(floats + lateral_at), load(floats + start_at), erf_(u));
+  return gaussian_between(load(floats + lateral_at), load(floats + start_at), gaussian_erf(erf, u));
 }
 
 HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
@@ -163,7 +165,8 @@ HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light&
     if (!any_lane(met)) continue;
     const float inverse = terms[index].inverse;
     const bool whole_way = word == index;  // the light stands beyond it
-    const Real share = whole_way ? gaussian_depth_beyond(inverse, h, -foot) : gaussian_depth(inverse, h, -foot, length - foot);
+    const Real share =
+        whole_way ? gaussian_depth_beyond(erf, inverse, h, -foot) : gaussian_depth(erf, inverse, h, -foot, length - foot);
     depth = fma(select(met, share, 0.0), terms[index].whole, depth);
   }
   return depth;

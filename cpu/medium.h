@@ -76,6 +76,7 @@ struct MediumLookup {
   const std::vector<DepthVolume>* depth_volumes;  // with LightDepth::volume, and their tables
   const std::vector<Buffer>* depths;
   const TileView* view;
+  int erf = static_cast<int>(Erf::accurate);
 
   template <class Algorithm>
   MediumLookup(const Algorithm& a, const TileView& tile_view)
@@ -86,6 +87,7 @@ struct MediumLookup {
         depth_volumes(&a.depth_volumes),
         depths(&a.depths),
         view(&tile_view) {
+    if constexpr (requires { a.erf; }) erf = static_cast<int>(a.erf);
     if (!a.grid) return;
     grid.values = tile_view.floats(a.voxels);
     grid.bricks = grid.values + bricks_at(a.grid);
@@ -135,7 +137,7 @@ HWY_INLINE Real depth_of_way(const MediumLookup& medium, const Real3& from, cons
       const Mask meets = (h < g.reach) && (foot > -g.reach) && (foot - length < g.reach);
       if (!any_lane(meets && on)) continue;
       const Real whole = gaussian_whole(g.extinction, g.radius);
-      sum += select(meets, gaussian_depth(1 / g.radius, h, -foot, length - foot) * whole, 0.0);
+      sum += select(meets, gaussian_depth(medium.erf, 1 / g.radius, h, -foot, length - foot) * whole, 0.0);
     }
   } else if (!medium.gaussians->empty()) {
     sum += marched_depth(stretch_of(*medium.gaussians, from, direction, length), from, direction, n, on,

@@ -69,9 +69,14 @@ using table = const float*;
 HWY_INLINE real select(mask m, real a, real b) { return hn::IfThenElse(m.m, a.v, b.v); }
 HWY_INLINE real sqrt(real x) { return hn::Sqrt(x.v); }
 HWY_INLINE real abs(real x) { return hn::Abs(x.v); }
-// Written out: Highway's Min and Max differ between targets in the sign of zero.
+// a < b ? a : b in every bit, zeros of both signs among them: what x86 does by itself. Other targets' Min and Max differ there.
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+HWY_INLINE real min(real a, real b) { return hn::Min(a.v, b.v); }
+HWY_INLINE real max(real a, real b) { return hn::Max(a.v, b.v); }
+#else
 HWY_INLINE real min(real a, real b) { return select(a < b, a, b); }
 HWY_INLINE real max(real a, real b) { return select(a > b, a, b); }
+#endif
 HWY_INLINE real floor(real x) { return hn::Floor(x.v); }
 HWY_INLINE real fma(real a, real b, real c) {
 #if HWY_TARGET == HWY_SCALAR  // Highway's own is not fused there

@@ -62,7 +62,7 @@ float depth_to(int g, float t) {
   float h;
   perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
   if (h >= emission_reach(g).w) return 0.0;
-  return gaussian_depth(1.0 / radius, h, -foot, t - foot) * gaussian_whole(albedo_extinction_of(g).w, radius);
+  return gaussian_depth(GAUSSIAN_ERF, 1.0 / radius, h, -foot, t - foot) * gaussian_whole(albedo_extinction_of(g).w, radius);
 }
 
 struct Local {
@@ -85,7 +85,7 @@ Local local_at(ivec2 meets, float t) {
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_lateral(inverse, h);
-    float share = gaussian_between(lateral, erf_(-foot * inverse), erf_(past * inverse));
+    float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
     here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
     float falloff = lateral * gaussian_falloff(inverse, past * past);
     float extinction = falloff * albedo_extinction_of(g).w;
@@ -111,7 +111,8 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
     if (h >= emission_reach(g).w) continue;
     bool whole_way = (index & int(AROUND_LIGHT)) == 0;  // the light stands beyond it
-    float share = whole_way ? gaussian_depth_beyond(1.0 / radius, h, -foot) : gaussian_depth(1.0 / radius, h, -foot, length - foot);
+    float share = whole_way ? gaussian_depth_beyond(GAUSSIAN_ERF, 1.0 / radius, h, -foot)
+                            : gaussian_depth(GAUSSIAN_ERF, 1.0 / radius, h, -foot, length - foot);
     depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }
   return depth;

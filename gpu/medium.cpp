@@ -22,7 +22,7 @@ struct MediumBlock {
 }  // namespace
 
 std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDensity>& gaussians, const GridDensity& grid,
-                                     const Buffer& voxels, int light_steps, LightDepth light_depth) {
+                                     const Buffer& voxels, int light_steps, LightDepth light_depth, Erf erf) {
   std::vector<glm::vec4> values;
   for (const GaussianDensity& g : gaussians) {
     values.emplace_back(g.center, g.radius);
@@ -37,7 +37,7 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
   block.albedo = glm::vec4(grid.albedo, 0);
   if (few) std::copy(values.begin(), values.end(), block.gaussians);
   r.block(medium_binding, block);
-  std::vector<std::string> defines;
+  std::vector<std::string> defines{"GAUSSIAN_ERF " + std::to_string(static_cast<int>(erf))};
   if (!gaussians.empty()) {
     if (!few) r.storage(many_gaussians_binding, std::as_bytes(std::span(values)));
     defines.push_back("WITH_GAUSSIANS");

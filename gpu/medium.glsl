@@ -104,7 +104,7 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
     if (h >= reach || foot <= -reach || foot - length >= reach) continue;
     float radius = center_radius(g).w;
     float whole = gaussian_whole(albedo_extinction_of(g).w, radius);
-    sum += gaussian_depth(1.0 / radius, h, -foot, length - foot) * whole;
+    sum += gaussian_depth(GAUSSIAN_ERF, 1.0 / radius, h, -foot, length - foot) * whole;
   }
 #else
   sum += marched_depth(false, gaussian_stretch(from, direction, length), from, direction, n);

@@ -14,7 +14,7 @@ namespace airlight {
 
 // Binds them, and returns the defines under which the shader finds them.
 std::vector<std::string> bind_medium(StepRunner&, const std::vector<GaussianDensity>&, const GridDensity&, const Buffer& voxels,
-                                     int light_steps, LightDepth);
+                                     int light_steps, LightDepth, Erf = Erf::accurate);
 // With the volumes of LightDepth::volume, for which `tables` (what else the shader reads as one, or absent) and the depths are
 // copied into one buffer: its first element stays the tables'. Where the lights' heads begin in it, for the uniform
 // depth_volumes_at under WITH_DEPTH_VOLUMES; -1 without volumes. After bind_medium().

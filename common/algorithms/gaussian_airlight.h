@@ -27,6 +27,7 @@ struct GaussianAirlight {
   glm::vec3 ambient{0, 0, 0};   // [W/m^2/sr] source radiance L_a
   glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
   int samples = 4;              // 1..most_samples
+  Erf erf = Erf::accurate;
 
   static constexpr int most_samples = 16;
 
@@ -52,6 +53,7 @@ struct GaussianAirlight {
     v(knob("ambient", "W/m^2/sr"), s.ambient);
     v(knob("emission", "W/m^3/sr"), s.emission);
     v(knob("samples"), s.samples);
+    v(knob("erf"), s.erf);
     v(out("airlight", "W/m^2/sr"), s.airlight);
     v(out("per_light", "W/m^2/sr"), s.per_light);
     v(out("transmittance"), s.transmittance);

@@ -23,6 +23,7 @@ struct LightMarch {
   View view;
   int light_steps = 16;  // > 0
   LightDepth light_depth = LightDepth::march;
+  Erf erf = Erf::accurate;  // of LightDepth::analytic
 
   Image light_transmittance;  // r32f, a layer a light, 0..1
 
@@ -41,6 +42,7 @@ struct LightMarch {
     v(knob("view"), s.view);
     v(knob("light_steps"), s.light_steps);
     v(knob("light_depth"), s.light_depth);
+    v(knob("erf"), s.erf);
     v(out("light_transmittance"), s.light_transmittance);
   }
 };

@@ -27,6 +27,10 @@ struct GridDensity {
   explicit operator bool() const { return size.x > 0; }
 };
 
+// By which error function the optical depths of Gaussians are taken: erf_, or the polynomial that Zhou et al. 2007 print. The
+// numbers are those of gaussian_erf() in common/formulas/gaussian.h.
+enum class Erf : int { accurate = 0, fast = 1 };
+
 // How the light's way through Gaussians and grid is attenuated: by marching it too; by the closed form of each Gaussian, marching
 // the grid; by a lookup in the light's volume, which OpticalDepthPropagation makes.
 enum class LightDepth : int { march, analytic, volume };

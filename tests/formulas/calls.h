@@ -55,8 +55,15 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 26) r[0] = erf_(a[0]);
   if (formula == 27) r[0] = atan_(a[0]);
   if (formula == 28) r[0] = gaussian_falloff(a[0], a[1]);
-  if (formula == 29) r[0] = gaussian_depth(a[0], a[1], a[2], a[3]);
-  if (formula == 35) r[0] = gaussian_depth_beyond(a[0], a[1], a[2]);
+  if (formula == 29) r[0] = gaussian_depth(0, a[0], a[1], a[2], a[3]);
+  if (formula == 35) r[0] = gaussian_depth_beyond(0, a[0], a[1], a[2]);
+  if (formula == 53) {
+    r[0] = min(a[0], a[1]);
+    r[1] = max(a[0], a[1]);
+  }
+  if (formula == 50) r[0] = gaussian_erf(1, a[0]);
+  if (formula == 51) r[0] = gaussian_depth(1, a[0], a[1], a[2], a[3]);
+  if (formula == 52) r[0] = gaussian_depth_beyond(1, a[0], a[1], a[2]);
   if (formula == 36) r[0] = gaussian_whole(a[0], a[1]);
   if (formula == 37) {
     r[0] = airlight_density(kind, g, a[0], a[1], a[2], a[3], a[4]);

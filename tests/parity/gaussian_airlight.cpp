@@ -17,6 +17,7 @@ struct Parts {
   std::size_t lights = 3;
   bool dark = false;  // no light
   bool casters = false;
+  Erf erf = Erf::accurate;
 };  // namespace
 
 Case scatter(Extent extent, const Parts& parts) {
@@ -53,6 +54,7 @@ Case scatter(Extent extent, const Parts& parts) {
                                .ambient = {0.01F, 0.02F, 0.03F},
                                .emission = {0.003F, 0.002F, 0.001F},
                                .samples = parts.samples,
+                               .erf = parts.erf,
                                .airlight = total,
                                .per_light = layers ? each : Image{},
                                .transmittance = through,
@@ -66,6 +68,7 @@ Case scatter(Extent extent, const Parts& parts) {
 
 const NamedCase cases[] = {
     {"gaussian_airlight/seven", [](Extent e) { return scatter(e, {.parts = false}); }},
+    {"gaussian_airlight/fast_erf", [](Extent e) { return scatter(e, {.parts = false, .erf = Erf::fast}); }},
     {"gaussian_airlight/in_fog", [](Extent e) { return scatter(e, {.extinction = 0.06F, .sky_distance = 1e30F}); }},
     {"gaussian_airlight/fog_alone",
      [](Extent e) { return scatter(e, {.extinction = 0.1F, .gaussians = 0, .sky_distance = 1e30F}); }},

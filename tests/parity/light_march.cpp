@@ -5,7 +5,8 @@ namespace airlight {
 
 namespace {
 
-Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int light_steps, bool shadowed = false) {
+Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int light_steps, bool shadowed = false,
+           Erf erf = Erf::accurate) {
   Case c;
   const View view = test_view(extent);
   const TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -32,6 +33,7 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
                          .view = view,
                          .light_steps = light_steps,
                          .light_depth = light_depth,
+                         .erf = erf,
                          .light_transmittance = through},
               ""}};
   c.results = {{"light_transmittance", through}};
@@ -40,6 +42,7 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
 
 const NamedCase cases[] = {
     {"light_march/analytic", [](Extent e) { return march(e, 7, false, LightDepth::analytic, 1); }},
+    {"light_march/fast_erf", [](Extent e) { return march(e, 7, false, LightDepth::analytic, 1, false, Erf::fast); }},
     {"light_march/shadowed", [](Extent e) { return march(e, 3, false, LightDepth::analytic, 1, true); }},
     {"light_march/marched", [](Extent e) { return march(e, 5, false, LightDepth::march, 16); }},
     {"light_march/grid", [](Extent e) { return march(e, 0, true, LightDepth::analytic, 24); }},

@@ -50,18 +50,22 @@ enum class Formula : int {
   gaussian_depth = 29,         // inverse radius, h, from, to
   gaussian_depth_beyond = 35,  // inverse radius, h, from
   gaussian_whole = 36,         // extinction, radius
-  light_density = 37,          // sigma_t, foot, h, x, more, mu -> of a point light, of a directional one
-  ray_ended = 38,              // front, most, seen -> 1 or 0
-  graded_step = 30,            // k, n, length, extinction
-  step_of_light = 31,          // a, b, foot, h -> angle over h, mean place, mean distance
-  step_transmittance = 32,     // front, tau, share, beside
-  grid_bound = 33,             // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
-  step_phase = 34,             // ends from the foot, h
-  depth_in_volume = 40,        // place; the table as depth_in_volume() takes it; the phase's kind is the volume's
-  cube_face = 41,              // place -> a, b, c
-  sharpened_depth = 42,        // before, here, after
-  injected_gaussian = 43,      // inverse radius, offset, cell
-  depth_beside = 44,           // own, others, weights; the phase's kind is the scheme
+  erf_printed = 50,            // those three by the printed error function
+  gaussian_depth_printed = 51,
+  gaussian_depth_beyond_printed = 52,
+  least_and_most = 53,      // a, b -> min, max
+  light_density = 37,       // sigma_t, foot, h, x, more, mu -> of a point light, of a directional one
+  ray_ended = 38,           // front, most, seen -> 1 or 0
+  graded_step = 30,         // k, n, length, extinction
+  step_of_light = 31,       // a, b, foot, h -> angle over h, mean place, mean distance
+  step_transmittance = 32,  // front, tau, share, beside
+  grid_bound = 33,          // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
+  step_phase = 34,          // ends from the foot, h
+  depth_in_volume = 40,     // place; the table as depth_in_volume() takes it; the phase's kind is the volume's
+  cube_face = 41,           // place -> a, b, c
+  sharpened_depth = 42,     // before, here, after
+  injected_gaussian = 43,   // inverse radius, offset, cell
+  depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 

@@ -51,6 +51,23 @@ Measured measure_erf(const Run& run) {
   return m;
 }
 
+// Zeros of both signs among them: the second of two that are equal, in the bits of every C++ build.
+Measured measure_least_and_most(const Run& run) {
+  Columns in;
+  for (const double a : {-1e30, -1.5, -1e-30, -0.0, 0.0, 1e-30, 1.5, 1e30}) {
+    for (const double b : {-1e30, -1.5, -1e-30, -0.0, 0.0, 1e-30, 1.5, 1e30}) add_call(in, a, b);
+  }
+  const Columns found = run({Formula::least_and_most, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double a = in[0][i], b = in[1][i];
+    m.add(std::fabs(found[0][i] - std::min(a, b)) + std::fabs(found[1][i] - std::max(a, b)), [&] {
+      return place({{"a", a}, {"b", b}});
+    });
+  }
+  return m;
+}
+
 Measured measure_atan(const Run& run) {
   Columns in(1);
   for (int i = 0; i <= 1000000; ++i) in[0].push_back(as_float(i * 2e-6));
@@ -72,6 +89,7 @@ void add_elementary_checks(std::vector<Check>& checks) {
   checks.push_back({"exp", measure_exp, "float_ulp_of_double", "exp_ulp"});
   checks.push_back({"log", measure_log, "float_ulp_of_double", "log_ulp"});
   checks.push_back({"erf", measure_erf, "exact_double", "erf"});
+  checks.push_back({"least_and_most", measure_least_and_most, "exact_double", "exact_double"});
   checks.push_back({"atan", measure_atan, "exact_double", "atan"});
 }
 
