@@ -182,7 +182,9 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   if (gaussians.size() < medium.gaussians.size())
     frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
   if (!any) frame.plan.skips.push_back({"visibility_network", "nothing for particles to stand for"});
-  if (frame.has_surfaces()) frame.plan.skips.push_back({"surfaces in the network", "light of higher orders passes through them"});
+  if (frame.has_surfaces())
+    frame.plan.skips.push_back(
+        {"surfaces in the network", "light reaches particles through them, from lights and from particles"});
   return frame.finish();
 }
 

@@ -46,14 +46,12 @@ Measured measure_links(const Run& run) {
   return m;
 }
 
-// A function linear along each axis, of which lookups are exact, another in each channel; beyond the nodes it stands still. Beside
-// its largest value.
+// A function linear along each axis, of which lookups are exact, another in each channel; beyond the nodes it stands still.
+// Beside its largest value.
 Measured measure_source(const Run& run) {
   Random random(stream + 2);
   const std::array<int, 3> n{4, 2, 5};
-  const auto value = [](int channel, double x, double y, double z) {
-    return channel + 0.25 * x + 0.5 * x * y + 0.125 * y * z;
-  };
+  const auto value = [](int channel, double x, double y, double z) { return channel + 0.25 * x + 0.5 * x * y + 0.125 * y * z; };
   std::vector<float> table;
   for (const int size : n) table.push_back(static_cast<float>(size));
   table.push_back(6);
