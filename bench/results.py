@@ -109,6 +109,10 @@ def shadows(out):
     return "\n".join(lines_of(os.path.join(out, "shadows.txt"))).strip()
 
 
+def propagation(out):
+    return "```\n" + "\n".join(lines_of(os.path.join(out, "propagation.txt"))).strip() + "\n```"
+
+
 def erf(out):
     """Two tables of bench/erf.cpp: by name, a column an instruction set; the best of all repetitions, by CPU time."""
     with open(os.path.join(out, "erf.json"), encoding="utf-8") as file:
@@ -193,7 +197,8 @@ def main():
         text = file.read()
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
-              "shadows": (shadows, "shadows.txt"), "erf": (erf, "erf.json")}
+              "shadows": (shadows, "shadows.txt"),
+              "propagation": (propagation, "propagation.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

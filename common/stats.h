@@ -9,9 +9,10 @@ namespace airlight {
 
 struct StepStats {
   std::string name;
-  double seconds = 0;       // thread time summed over the workers on the CPU, wall time (glFinish) on GL
-  std::uint64_t items = 0;  // pixels or triangles processed
-  bool reused = false;      // its kept outputs were up to date
+  double seconds = 0;                 // thread time summed over the workers on the CPU, wall time (glFinish) on GL
+  std::uint64_t items = 0;            // pixels or triangles processed
+  bool reused = false;                // its kept outputs were up to date
+  std::vector<float> residuals = {};  // of a step that iterates: the change in each round, beside the largest value
 };
 
 struct Stats {

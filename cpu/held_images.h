@@ -58,6 +58,7 @@ class BufferView {
  public:
   explicit BufferView(std::map<Handle, HeldBuffer>& held) : held_(held) {}
   const float* floats(const Buffer& b) const { return made(b); }
+  const std::int32_t* integers(const Buffer& b) const { return reinterpret_cast<const std::int32_t*>(made(b)); }
   float* made(const Buffer& b) const { return b ? reinterpret_cast<float*>(held_.at(b).bytes.data()) : nullptr; }
 
  private:

@@ -25,5 +25,9 @@ void run_tile(const Compose&, const TileView&, Simd);
 // Those that make buffers.
 void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);
 void run_volume(const OpticalDepthPropagation&, const BufferView&, Workers&, Simd);
+void run_volume(const VisibilityNetwork&, const BufferView&, Workers&, Simd);
+void run_volume(const ParticleLight&, const BufferView&, Workers&, Simd);
+void run_volume(const NetworkIteration&, const BufferView&, Workers&, Simd);
+void run_volume(const SourceFunction&, const BufferView&, Workers&, Simd);
 
 }  // namespace airlight

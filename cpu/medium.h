@@ -92,6 +92,17 @@ struct MediumLookup {
     grid.values = tile_view.floats(a.voxels);
     grid.bricks = grid.values + bricks_at(a.grid);
   }
+  // Without volumes toward the lights: optical depths of Gaussians are closed forms.
+  MediumLookup(const std::vector<GaussianDensity>& all, const GridDensity& one, table voxels, int steps)
+      : gaussians(&all),
+        grid{&one, voxels, voxels},
+        light_steps(steps),
+        light_depth(LightDepth::analytic),
+        depth_volumes(nullptr),
+        depths(nullptr),
+        view(nullptr) {
+    if (one) grid.bricks += bricks_at(one);
+  }
   bool any() const { return !gaussians->empty() || *grid.grid; }
 };
 

@@ -31,6 +31,7 @@ struct March {
   LitRays lit;
   RadianceBound bound;
   bool one_albedo, emits;
+  table sources;  // null without
 
   int i = 0;  // the first pixel
   Real3 d;
@@ -54,7 +55,8 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, co
       lit(lit_rays),
       bound(algorithm),
       one_albedo(true),
-      emits(algorithm.emission != glm::vec3(0)) {
+      emits(algorithm.emission != glm::vec3(0) || algorithm.sources),
+      sources(algorithm.sources ? tile_view.floats(algorithm.sources) : nullptr) {
   for (const GaussianDensity& g : a.gaussians) {
     one_albedo = one_albedo && g.albedo == a.albedo;
     emits = emits || g.emission != glm::vec3(0);
@@ -69,6 +71,7 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   going = Real(0.0) < Real(1.0);
   for (Real& s : sum) s = 0.0;
   most = bound.of(a, d);
+  if (sources) most += sources[3];
   if (lit) lit.begin(i);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
@@ -100,6 +103,14 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
   if (a.grid) add(medium.grid.extinction_at(p), a.grid.albedo);
   if (one_albedo) {
     for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * a.albedo[c];
+  }
+  if (sources) {
+    const glm::vec3 &first = a.source_first, scale = 1.0F / a.source_spacing;
+    const Real x = (p.x - first.x) * scale.x, y = (p.y - first.y) * scale.y, z = (p.z - first.z) * scale.z;
+    for (int c = 0; c < 3; ++c) {
+      const Real uneven = max(here.scattering[c] - a.extinction * a.albedo[c], 0.0);
+      here.emission[c] = fma(uneven, source_in_volume(sources, c, x, y, z), here.emission[c]);
+    }
   }
   return here;
 }

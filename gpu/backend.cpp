@@ -148,7 +148,7 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
 
   stats.steps.clear();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i]};
+    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i], {}};
     if (runs[i]) {
       progress.check();
       const Clock::time_point step_start = Clock::now();
@@ -165,6 +165,10 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
       for (const Buffer& buffer : made) {
         runner_->buffers.at(buffer).key = output_key(keys[i], buffer);
         step.items += buffer.bytes / sizeof(float);
+      }
+      if (const auto* a = std::get_if<NetworkIteration>(&steps[i].what)) {
+        const std::vector<std::byte> content = runner_->content(a->residuals);
+        step.residuals = a->history({reinterpret_cast<const float*>(content.data()), content.size() / sizeof(float)});
       }
       for (const auto& [handle, last] : last_use) {
         const auto held = runner_->images.find(handle);

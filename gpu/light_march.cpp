@@ -6,7 +6,7 @@ namespace airlight {
 
 void run(const LightMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth, a.erf);
-  const int depths_at = bind_depths(r, a.voxels, {a.depths, a.depth_volumes});
+  const int depths_at = bind_depths(r, a.voxels, {a.depths, a.depth_volumes}).depths;
   if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
   defines.push_back(r.lights(a.lights));
   if (a.lit) defines.push_back("WITH_LIT");

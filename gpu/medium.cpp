@@ -51,8 +51,8 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
   return defines;
 }
 
-int bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
-  if (d.depths.empty()) return -1;
+TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
+  if (d.depths.empty() && !d.sources) return {};
   struct Head {  // of a light, as gpu/medium.glsl reads it
     glm::vec4 rows[3];
     std::int32_t kind, at, unused[2];
@@ -67,8 +67,10 @@ int bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
                      {}});
     bytes += d.depths[k].bytes;
   }
+  const std::size_t sources_at = bytes;
+  bytes += d.sources.bytes;
   if (bytes > r.storage_limit()) {
-    throw MachineError("OpenGL: the lights' volumes take " + std::to_string(bytes >> 20U) +
+    throw MachineError("OpenGL: the volumes of lights and sources take " + std::to_string(bytes >> 20U) +
                        " MiB, more than a storage buffer may have (" + std::to_string(r.storage_limit() >> 20U) +
                        "), expected a smaller resolution");
   }
@@ -78,8 +80,12 @@ int bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
   for (std::size_t k = 0; k < heads.size(); ++k) {
     r.copy(r.buffer_name(d.depths[k]), depths_number, static_cast<std::size_t>(heads[k].at) * sizeof(float), d.depths[k].bytes);
   }
+  if (d.sources) r.copy(r.buffer_name(d.sources), depths_number, sources_at, d.sources.bytes);
   r.bind(tables_binding, depths_number);
-  return static_cast<int>(tables.bytes / sizeof(float));
+  TablePlaces places;
+  if (!d.depths.empty()) places.depths = static_cast<int>(tables.bytes / sizeof(float));
+  if (d.sources) places.sources = static_cast<int>(sources_at / sizeof(float));
+  return places;
 }
 
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,

@@ -15,14 +15,18 @@ namespace airlight {
 // Binds them, and returns the defines under which the shader finds them.
 std::vector<std::string> bind_medium(StepRunner&, const std::vector<GaussianDensity>&, const GridDensity&, const Buffer& voxels,
                                      int light_steps, LightDepth, Erf = Erf::accurate);
-// With the volumes of LightDepth::volume, for which `tables` (what else the shader reads as one, or absent) and the depths are
-// copied into one buffer: its first element stays the tables'. Where the lights' heads begin in it, for the uniform
-// depth_volumes_at under WITH_DEPTH_VOLUMES; -1 without volumes. After bind_medium().
+// With the volumes of LightDepth::volume or a source volume, for which `tables` (what else the shader reads as one, or absent),
+// the depths and the sources are copied into one buffer: its first element stays the tables'. After bind_medium().
 struct DepthTables {
   const std::vector<Buffer>& depths;
   const std::vector<DepthVolume>& volumes;
+  Buffer sources = {};
 };
-int bind_depths(StepRunner&, const Buffer& tables, const DepthTables&);
+struct TablePlaces {
+  int depths = -1;   // where the lights' heads begin, for the uniform depth_volumes_at under WITH_DEPTH_VOLUMES; -1: no volumes
+  int sources = -1;  // where the table of source_in_volume() begins; -1: there is none
+};
+TablePlaces bind_depths(StepRunner&, const Buffer& tables, const DepthTables&);
 
 // Mesa's llvmpipe leaves all loops of a shader once it has gone round 65535 times, without a word: what a dispatch may ask of an
 // invocation.

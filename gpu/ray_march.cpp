@@ -8,15 +8,19 @@ namespace airlight {
 
 void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
-  const int depths_at = bind_depths(r, a.voxels, {a.depths, a.depth_volumes});
-  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
+  const TablePlaces places = bind_depths(r, a.voxels, {a.depths, a.depth_volumes, a.sources});
+  if (places.depths >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
+  if (places.sources >= 0) defines.push_back("WITH_SOURCES");
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/ray_march.glsl", defines);
-  program.set("depth_volumes_at", depths_at);
+  program.set("depth_volumes_at", places.depths);
+  program.set("sources_at", places.sources);
+  program.set("source_first", a.source_first);
+  program.set("source_scale", 1.0F / a.source_spacing);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);
@@ -37,8 +41,8 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   const auto all_lights = static_cast<int>(a.lights.size());
   const std::int64_t most = shadowed ? LoopBudget::most / 2 : LoopBudget::most;
   const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, shadowed ? 1 : a.lights.size(), most);
-  const std::int64_t a_step =
-      2 + static_cast<std::int64_t>(a.gaussians.size()) + (budget.a_light + (shadowed ? 1 : 0)) * budget.lights;
+  const std::int64_t a_step = 2 + static_cast<std::int64_t>(a.gaussians.size()) + (a.sources ? 4 : 0) +
+                              (budget.a_light + (shadowed ? 1 : 0)) * budget.lights;
   const int all_steps = 3 * a.steps;
   const int steps = static_cast<int>(std::clamp<std::int64_t>(most / a_step, 1, all_steps));
   const auto march = [&](int first_light, int end_light, bool last, auto&& dispatch) {

@@ -50,6 +50,12 @@ vec3 sum = vec3(0.0);
 
 bool ended() { return ray_ended(front, most, largest(sum)); }
 
+#ifdef WITH_SOURCES
+uniform int sources_at;
+uniform vec3 source_first;
+uniform vec3 source_scale;
+#endif
+
 // What is at a place of the ray.
 struct Local {
   float extinction;
@@ -73,6 +79,13 @@ Local local_at(vec3 p, bool all) {
   float extinction = grid_extinction_at(p);
   here.extinction += extinction;
   here.scattering += extinction * grid_albedo.xyz;
+#endif
+#ifdef WITH_SOURCES
+  vec3 at = (p - source_first) * source_scale;
+  for (int c = 0; c < 3; ++c) {
+    float uneven = max(here.scattering[c] - albedo_extinction[c] * albedo_extinction.w, 0.0);
+    here.emission[c] = fma(uneven, source_in_volume(sources_at, c, at.x, at.y, at.z), here.emission[c]);
+  }
 #endif
   return here;
 }
@@ -178,6 +191,9 @@ void main() {
   float end = min(length, 1e15);
   d = pixel_ray(pixel);
   most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
+#ifdef WITH_SOURCES
+  most += element(sources_at, 3);
+#endif
   if (first_step > 0 || !is_first()) sum = imageLoad(airlight_image, at).xyz;
   if (first_step > 0) {
     front = imageLoad(airlight_image, at).w;

@@ -63,7 +63,7 @@ class StepRunner {
   void write_storage(GLuint number, std::size_t at, std::span<const std::byte>);
   void copy(GLuint from_buffer, GLuint number, std::size_t at, std::size_t bytes);  // the beginning of a buffer to `at`
   void copy_back(GLuint number, GLuint to_buffer, std::size_t bytes);
-  std::size_t storage_limit() const;                                                // [byte] of one storage buffer
+  std::size_t storage_limit() const;  // [byte] of one storage buffer
   template <class T>
   void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));
@@ -102,6 +102,10 @@ void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
 void run(const DensityInjection&, StepRunner&, const Progress&);
 void run(const OpticalDepthPropagation&, StepRunner&, const Progress&);
+void run(const VisibilityNetwork&, StepRunner&, const Progress&);
+void run(const ParticleLight&, StepRunner&, const Progress&);
+void run(const NetworkIteration&, StepRunner&, const Progress&);
+void run(const SourceFunction&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);
 void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);

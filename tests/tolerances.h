@@ -82,6 +82,18 @@ inline constexpr Tolerance tolerances[] = {
     {"exact_double", 1e-14, "relative; a few roundings of a double"},
     {"exact_float", 2e-7, "relative; one or two roundings of a float"},
     {"float_ulp_of_double", 1e-6, "ULP of a float: exp_ and log_ in double are the C library's"},
+    {"truth_network", 0.05, "relative RMSE of illumination-network with 4096 particles and 256 directions: what it promises"},
+    {"truth_network_forward", 0.07,
+     "relative, of the mean with 1024 particles and 128 directions where light scatters forward (g = 0.6): they are coarse "
+     "beside "
+     "the peak, and the walks' mean is known to 0.02"},
+    {"network_dense", 1e-5, "of the largest value: the iteration's sums of floats against elimination in double"},
+    {"network_energy", 2e-6, "relative: out against in at albedo 1, after rounds until nothing but rounding changes"},
+    {"network_line_depth", 2.5e-5, "absolute: of each of two Gaussians a chord below 1e-5 is left out, the rest is rounding"},
+    {"network_moments", 4e-3,
+     "[m, m^2] of 4096 low-discrepancy points in Gaussians of 0.5 and 0.7 m: random ones would be off by 1e-2"},
+    {"link_shares_double", 5e-7, "relative: the series below 0.25 leaves out 0.25^5 / 2520 = 4e-7, and that of opacity"},
+    {"link_shares", 3e-6, "relative: from 0.25 on, a difference that is a ninth of its terms, which are known to 2e-7"},
     {"image_plane", 5e-7, "beside half the image or the number of cells: three to five roundings of a number up to that"},
     {"direction", 4e-7, "length of the difference from a unit vector, or beside the distance: a few roundings"},
     {"geometry_double", 1e-12, "roundings of a double, the oracle's among them, magnified by flat triangles"},

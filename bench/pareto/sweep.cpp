@@ -35,6 +35,10 @@ std::vector<Configuration> configurations(const Scene& scene, Extent extent, con
       refused.push_back(std::string(t.name) + ": " + *why);
       continue;
     }
+    if (t.multiple_scattering) {
+      refused.push_back(std::string(t.name) + ": it renders orders of scattering above the first, the truth has one");
+      continue;
+    }
     for (const Settings& settings : different_settings(t, scene, extent)) {
       for (const std::string& backend : backends) all.push_back({std::string(t.name), backend, settings});
     }

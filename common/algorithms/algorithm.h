@@ -10,19 +10,23 @@
 #include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
+#include "common/algorithms/network_iteration.h"
 #include "common/algorithms/optical_depth_propagation.h"
+#include "common/algorithms/particle_light.h"
 #include "common/algorithms/ray_march.h"
 #include "common/algorithms/shadow_planes.h"
+#include "common/algorithms/source_function.h"
 #include "common/algorithms/surface_airlight.h"
 #include "common/algorithms/surface_shading.h"
 #include "common/algorithms/surface_visibility.h"
 #include "common/algorithms/view_transmittance.h"
+#include "common/algorithms/visibility_network.h"
 
 namespace airlight {
 
-using Algorithm =
-    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading, HomogeneousAirlight,
-                 DensityInjection, OpticalDepthPropagation, RayMarch, GaussianAirlight, LightMarch, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
+                               HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
+                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, LightMarch, Compose>;
 
 struct Step {
   Algorithm what;

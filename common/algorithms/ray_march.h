@@ -18,6 +18,7 @@ struct RayMarch {
   Buffer voxels;               // extinctions of the grid (common/plan/voxels.h); with a grid
   Buffer volumes;              // as ShadowPlanes'; optional: without, nothing throws a shadow
   std::vector<Buffer> depths;  // one a light, as OpticalDepthPropagation's; with LightDepth::volume
+  Buffer sources;  // as SourceFunction's; optional: what there is besides for Gaussians and grid to scatter toward the camera
   std::vector<Light> lights;
   std::vector<DepthVolume> depth_volumes;  // where they stand, seen from the camera
   std::vector<GaussianDensity> gaussians;
@@ -32,6 +33,8 @@ struct RayMarch {
   int steps = 64;               // > 0
   int light_steps = 16;         // > 0, of each sample's way to each light
   LightDepth light_depth = LightDepth::march;
+  glm::vec3 source_first{0, 0, 0};    // [m] where the first node of `sources` is
+  glm::vec3 source_spacing{1, 1, 1};  // [m]
 
   Image airlight;       // rgb32f
   Image per_light;      // rgb32f, a layer a light, without ambient and emission; optional
@@ -46,6 +49,7 @@ struct RayMarch {
     v(in("voxels", "1/m"), s.voxels);
     v(in("volumes"), s.volumes);
     v(in("depths"), s.depths);
+    v(in("sources", "W/m^2/sr"), s.sources);
     v(knob("lights"), s.lights);
     v(knob("depth_volumes"), s.depth_volumes);
     v(knob("gaussians"), s.gaussians);
@@ -60,6 +64,8 @@ struct RayMarch {
     v(knob("steps"), s.steps);
     v(knob("light_steps"), s.light_steps);
     v(knob("light_depth"), s.light_depth);
+    v(knob("source_first", "m"), s.source_first);
+    v(knob("source_spacing", "m"), s.source_spacing);
     v(out("airlight", "W/m^2/sr"), s.airlight);
     v(out("per_light", "W/m^2/sr"), s.per_light);
     v(out("transmittance"), s.transmittance);

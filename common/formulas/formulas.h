@@ -10,3 +10,4 @@
 #include "common/formulas/gaussian.h"
 #include "common/formulas/marching.h"
 #include "common/formulas/depth_volume.h"
+#include "common/formulas/network.h"

@@ -37,6 +37,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .voxels = voxels,
                                        .volumes = volumes,
                                        .depths = {},
+                                       .sources = {},
                                        .lights = frame.lights,
                                        .depth_volumes = {},
                                        .gaussians = gaussians,

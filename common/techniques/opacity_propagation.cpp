@@ -150,6 +150,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .voxels = density.voxels,
                                        .volumes = volumes,
                                        .depths = depths,
+                                       .sources = {},
                                        .lights = frame.lights,
                                        .depth_volumes = depth_volumes,
                                        .gaussians = density.gaussians,

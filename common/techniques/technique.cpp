@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/spelling.h"
 #include "common/techniques/gaussian_airlight.h"
+#include "common/techniques/illumination_network.h"
 #include "common/techniques/marching.h"
 #include "common/techniques/opacity_propagation.h"
 #include "common/techniques/reference.h"
@@ -78,8 +79,8 @@ double KnobValues::number(std::string_view name) const {
 std::string_view KnobValues::choice(std::string_view name) const { return text(name); }
 
 std::span<const Technique> techniques() {
-  static const std::vector<Technique> all{shadow_planes(), gaussian_airlight(), opacity_propagation(), marching(),
-                                          reference_technique()};
+  static const std::vector<Technique> all{shadow_planes(),        gaussian_airlight(), opacity_propagation(),
+                                          illumination_network(), marching(),          reference_technique()};
   return all;
 }
 

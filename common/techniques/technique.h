@@ -85,6 +85,7 @@ struct Technique {
   std::string_view name;
   std::string_view summary;
   std::vector<Knob> knobs;
+  bool multiple_scattering = false;  // it renders orders above the first, which the truth of sweeps has not
   // Why this technique cannot render the scene, or nothing.
   std::optional<std::string> (*refuses)(const Scene&) = nullptr;
   Plan (*plan)(const Scene&, const FrameRequest&) = nullptr;  // null for `reference`, which runs on no backend

@@ -90,5 +90,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 42) r[0] = sharpened_depth(a[0], a[1], a[2]);
   if (formula == 43) r[0] = injected_gaussian(a[0], a[1], a[2]);
   if (formula == 44) r[0] = depth_beside(kind, a[0], a[1], a[2]);
+  if (formula == 45) link_shares(a[0], a[1], r[0], r[1], r[2]);
+  if (formula == 46) r[0] = source_in_volume(t, kind, a[0], a[1], a[2]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

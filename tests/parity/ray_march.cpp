@@ -15,7 +15,18 @@ struct Parts {
   float sky_distance = 1e30F;
   bool parts = true;  // per light, optical depth
   bool casters = false;
+  bool sources = false;
 };  // namespace
+
+// A table of source_in_volume().
+Buffer add_sources(Case& c, std::uint32_t id) {
+  std::vector<float> table{4, 3, 5, 2};
+  for (std::uint32_t i = 0; i < 3 * 4 * 3 * 5; ++i) table.push_back(2 * static_cast<float>(uniform(173, i)));
+  const auto bytes = std::as_bytes(std::span(table));
+  const Buffer sources{{id}, bytes.size()};
+  c.buffers.emplace_back(sources, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  return sources;
+}
 
 Case march(Extent extent, const Parts& parts) {
   Case c;
@@ -34,6 +45,7 @@ Case march(Extent extent, const Parts& parts) {
                        .voxels = medium.voxels,
                        .volumes = parts.casters ? add_test_volumes(c, 9, lights) : Buffer{},
                        .depths = {},
+                       .sources = parts.sources ? add_sources(c, 10) : Buffer{},
                        .lights = lights,
                        .depth_volumes = {},
                        .gaussians = medium.gaussians,
@@ -48,6 +60,8 @@ Case march(Extent extent, const Parts& parts) {
                        .steps = parts.steps,
                        .light_steps = parts.light_steps,
                        .light_depth = parts.light_depth,
+                       .source_first = {-2, -1.5F, -8},
+                       .source_spacing = {1.5F, 1.2F, 1.3F},
                        .airlight = total,
                        .per_light = parts.parts ? each : Image{},
                        .transmittance = through,
@@ -73,6 +87,7 @@ const NamedCase cases[] = {
     {"ray_march/casters", [](Extent e) { return march(e, {.steps = 12, .casters = true}); }},
     {"ray_march/casters_in_everything",
      [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .casters = true}); }},
+    {"ray_march/sources", [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .sources = true}); }},
     {"ray_march/everything",
      [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .light_depth = marched}); }},
 };

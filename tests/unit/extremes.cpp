@@ -170,6 +170,21 @@ TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
   expect_finite(GetParam(), extreme_gaussians, settings, 50);
 }
 
+TEST_P(Extremes, GiveFiniteNumbersOfParticles) {
+  const auto make = [](std::uint32_t seed) {
+    Scene s = extreme_medium(seed);
+    if (s.medium.gaussians.empty() && !s.medium.grid) s.medium.gaussians.push_back({});
+    return s;
+  };
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  settings.knobs = {{"particles", "30"}, {"directions", "5"}, {"iterations", "12"}, {"resolution", "3"}, {"steps", "3"}};
+  const bool gl = GetParam() == "gl";  // which compiles most of its time
+  expect_finite(GetParam(), make, settings, gl ? 5 : 25);
+  settings.knobs = {{"particles", "1"}, {"directions", "1"}, {"resolution", "2"}, {"steps", "2"}};
+  expect_finite(GetParam(), make, settings, gl ? 3 : 15);
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, Extremes, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
 
 }  // namespace

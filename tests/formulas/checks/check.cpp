@@ -17,6 +17,7 @@ std::vector<Check> all_checks() {
   add_gaussian_checks(checks);
   add_marching_checks(checks);
   add_depth_volume_checks(checks);
+  add_network_checks(checks);
   return checks;
 }
 

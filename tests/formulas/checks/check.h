@@ -66,6 +66,8 @@ enum class Formula : int {
   sharpened_depth = 42,     // before, here, after
   injected_gaussian = 43,   // inverse radius, offset, cell
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
+  link_shares = 45,         // depth, all -> lost, given, kept
+  source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -117,6 +119,7 @@ void add_reflection_checks(std::vector<Check>&);
 void add_grid_checks(std::vector<Check>&);
 void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
+void add_network_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector

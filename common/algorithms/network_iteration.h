@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/algorithms/field.h"
+#include "common/algorithms/network.h"
+#include "common/algorithms/view.h"
+#include "common/image.h"
+
+namespace airlight {
+
+// Multiple scattering among the particles (Szirmay-Kalos et al. 2005, 3.3). A round sweeps every list from end to end, both ways,
+// so that light goes through all of the medium and scatters once more: it is a whole order of scattering. Along a link the source
+// is the mean of its ends; a particle takes half of what its two links take (link_shares() in common/formulas/network.h) and
+// gives all of that, times its albedo, so that at albedo 1 as much light leaves the medium as sources put into it. As printed, a
+// particle's opacity is that of the link before it in whatever direction, and energy is lost.
+struct NetworkIteration {
+  Buffer particles, lines, links, first;
+  Phase phase;
+  int particle_count = 1, line_count = 1;
+  int window = 1;
+  float tolerance = 1e-3F;  // it stops where no source changes by more than that, beside the largest
+  int iterations = 100;     // at most, > 0
+
+  Buffer sources;    // laid out as `first`: all that a particle sends
+  Buffer residuals;  // how many rounds there were, then the change after each, 1 + iterations floats
+
+  // What the buffer of residuals says.
+  static std::vector<float> history(std::span<const float> residuals) {
+    return {residuals.begin() + 1, residuals.begin() + 1 + static_cast<std::ptrdiff_t>(residuals[0])};
+  }
+
+  NetworkShape shape() const {
+    const auto side = static_cast<std::size_t>(window);
+    return {static_cast<std::size_t>(particle_count), static_cast<std::size_t>(line_count), side * side};
+  }
+
+  static constexpr std::string_view name = "network_iteration";
+  static constexpr Domain domain = Domain::volume;
+  template <class Self, class Visit>
+  static void fields(Self& s, Visit&& v) {
+    v(in("particles"), s.particles);
+    v(in("lines"), s.lines);
+    v(in("links"), s.links);
+    v(in("first", "W/m^2/sr"), s.first);
+    v(knob("phase"), s.phase);
+    v(knob("particle_count"), s.particle_count);
+    v(knob("line_count"), s.line_count);
+    v(knob("window"), s.window);
+    v(knob("tolerance"), s.tolerance);
+    v(knob("iterations"), s.iterations);
+    v(out("sources", "W/m^2/sr"), s.sources);
+    v(out("residuals"), s.residuals);
+  }
+};
+
+}  // namespace airlight

@@ -1,0 +1,35 @@
+// What an illumination network is made of: particles sampled from the medium, and bundles of lines through them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "common/algorithms/network.h"
+#include "common/plan/depth_volumes.h"
+#include "common/scene/scene.h"
+#include "common/techniques/technique.h"
+
+namespace airlight {
+
+// The lattice on which particles stand: all of the box lies within it.
+struct NetworkFrame {
+  glm::dvec3 middle{0, 0, 0};  // [m]
+  double unit = 1;             // [m]
+};
+NetworkFrame network_frame(const MediumBox&);
+
+// `count` particles of the scene's Gaussians and grid, as common/algorithms/network.h lays them out: proportional to extinction,
+// by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones.
+std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count);
+
+// `count` bundles of lines whose directions, both ways, are evenly spread (spherical Fibonacci points on half a sphere), each
+// with a window of window^2 pixels at most about the particles.
+std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window);
+
+// Both as uploads under two handles from `first_id` on.
+std::vector<Plan::Upload> network_uploads(const Scene&, const MediumBox&, int particles, int lines, int window,
+                                          std::uint32_t first_id);
+
+}  // namespace airlight

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <vector>
+
+#include "common/formulas/float.h"
+#include "cpu/kernels.h"
+#include "cpu/network_links.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr std::size_t chunk = 32;  // lines whose beams are held at once
+
+// Radiance on one bundle of lines: of each link, what leaves it along the line and against it; and where particles are.
+struct Beams {
+  std::vector<float> forward, backward;  // rgb and an unused float a record
+  std::vector<std::int32_t> along;       // a record, of its particle
+
+  void make(const Links& links, const std::int32_t* line, const float* particles, const float* source, const float* source_back,
+            const NetworkShape& shape) {
+    forward.resize(4 * shape.records());
+    backward.resize(4 * shape.records());
+    along.resize(shape.records());
+    links.each_list([&](std::size_t at, std::size_t n) {
+      const auto sweep = [&](bool back, const float* sent, float* out) {
+        Rgb beam;
+        for (std::size_t step = 0; step <= n; ++step) {
+          const std::size_t k = at + (back ? n - step : step);
+          const Rgb a = rgb_at(sent, links.particle_at(k == at ? k : k - 1));
+          const Rgb b = rgb_at(sent, links.particle_at(k == at + n ? k - 1 : k));
+          for (std::size_t c = 0; c < 4; ++c) {
+            beam.v[c] += links.given[k] * 0.5F * (a.v[c] + b.v[c]) - links.lost[k] * beam.v[c];
+            out[4 * k + c] = beam.v[c];
+          }
+        }
+      };
+      sweep(false, source, forward.data());
+      sweep(true, source_back, backward.data());
+      for (std::size_t k = at; k < at + n; ++k) {
+        std::int32_t sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          sum +=
+              line[line_direction + axis] * static_cast<std::int32_t>(particles[axis * shape.particles + links.particle_at(k)]);
+        along[k] = sum;
+      }
+    });
+  }
+};
+
+// A node of the box.
+struct Node {
+  std::int32_t place[3];
+  glm::vec3 to_camera{0, 0, 0};  // unit length
+};
+
+std::int32_t dot_of(const std::int32_t* a, const Node& node) {
+  return a[0] * node.place[0] + a[1] * node.place[1] + a[2] * node.place[2];
+}
+
+void add_scaled(float (&sum)[3], const float* beam, float weight) {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * beam[c];
+}
+
+// Adds what arrives at the node along one bundle, each way with its weight.
+void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const Node& node, float forward, float backward,
+               float (&sum)[3]) {
+  std::size_t pixel[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::int32_t at = dot_of(line + (k == 0 ? line_across : line_down), node) - line[line_begin + k];
+    if (at < 0 || at / line[line_pixel + k] >= line[line_pixels + k]) return;
+    pixel[k] = static_cast<std::size_t>(at / line[line_pixel + k]);
+  }
+  const std::size_t c = pixel[0] + static_cast<std::size_t>(line[line_pixels]) * pixel[1];
+  const auto first = static_cast<std::size_t>(links.begin[c]), n = static_cast<std::size_t>(links.begin[c + 1]) - first;
+  if (n == 0) return;
+  const std::size_t at = first + c;
+  const std::int32_t here = dot_of(line + line_direction, node);
+  const auto begin = beams.along.begin() + static_cast<std::ptrdiff_t>(at);
+  const auto k = static_cast<std::size_t>(std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(n), here) - begin);
+  const float *along = beams.forward.data() + 4 * at, *against = beams.backward.data() + 4 * at;
+  // Between particles k - 1 and k. Outside all, light fades out to what enters or leaves within about the width of a pixel.
+  const auto width = static_cast<float>(line[line_pixel]);
+  if (k == 0) {
+    const auto away = static_cast<float>(begin[0] - here);
+    const float share = away / (away + width);
+    add_scaled(sum, along, forward * (1 - share));
+    add_scaled(sum, against + 4, backward * (1 - share));
+    add_scaled(sum, against, backward * share);
+    return;
+  }
+  if (k == n) {
+    const auto away = static_cast<float>(here - begin[static_cast<std::ptrdiff_t>(n) - 1]);
+    const float share = away / (away + width);
+    add_scaled(sum, along + 4 * (n - 1), forward * (1 - share));
+    add_scaled(sum, along + 4 * n, forward * share);
+    add_scaled(sum, against + 4 * n, backward * (1 - share));
+    return;
+  }
+  const std::int32_t before = begin[static_cast<std::ptrdiff_t>(k) - 1], after = begin[static_cast<std::ptrdiff_t>(k)];
+  const float share = static_cast<float>(here - before) / static_cast<float>(after - before);
+  add_scaled(sum, along + 4 * (k - 1), forward * (1 - share));
+  add_scaled(sum, along + 4 * k, forward * share);
+  add_scaled(sum, against + 4 * k, backward * (1 - share));
+  add_scaled(sum, against + 4 * (k + 1), backward * share);
+}
+
+// Unit direction of a line.
+glm::vec3 direction_of(const std::int32_t* line) {
+  const glm::vec3 w(line[line_direction], line[line_direction + 1], line[line_direction + 2]);
+  const f32::Float length = f32::sqrt(f32::fma(w.x, w.x, f32::fma(w.y, w.y, w.z * w.z)));
+  return w * (1 / length.v);
+}
+
+}  // namespace
+
+void run_volume(const SourceFunction& a, const BufferView& view, Workers& workers, Simd) {
+  const NetworkShape shape = a.shape();
+  const bool isotropic = a.phase.kind == PhaseKind::isotropic;
+  const auto nx = static_cast<std::size_t>(a.nodes.x), ny = static_cast<std::size_t>(a.nodes.y),
+             nz = static_cast<std::size_t>(a.nodes.z);
+  const std::int32_t* lines = view.integers(a.lines);
+  const float *particles = view.floats(a.particles), *sent = view.floats(a.particle_sources);
+  std::vector<float> sums(4 * nx * ny * nz, 0.0F);  // rgb and weights
+  std::vector<Beams> beams(chunk);
+  for (std::size_t first = 0; first < shape.lines; first += chunk) {
+    const std::size_t count = std::min(chunk, shape.lines - first);
+    workers.each(static_cast<int>(count), [&](int n, int) {
+      const std::size_t l = first + static_cast<std::size_t>(n), of_a_way = isotropic ? 0 : 4 * shape.particles;
+      const std::int32_t* line = lines + line_fields * l;
+      beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), line, l), line, particles,
+                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), shape);
+    });
+    workers.each(static_cast<int>(ny * nz), [&](int row, int) {
+      const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny;
+      for (std::size_t i = 0; i < nx; ++i) {
+        Node node;
+        const std::size_t number[3] = {i, j, k};
+        for (int axis = 0; axis < 3; ++axis)
+          node.place[axis] = static_cast<std::int32_t>(a.first[axis]) + a.stride * static_cast<std::int32_t>(number[axis]);
+        if (!isotropic) {
+          const glm::vec3 way = a.camera - glm::vec3(node.place[0], node.place[1], node.place[2]) * a.unit;
+          const f32::Float squared = f32::fma(way.x, way.x, f32::fma(way.y, way.y, way.z * way.z));
+          node.to_camera = way * (1 / f32::sqrt(f32::max(squared, 1e-30)).v);
+        }
+        float* out = sums.data() + 4 * (i + nx * (j + ny * k));
+        float sum[3] = {out[0], out[1], out[2]};
+        for (std::size_t n = 0; n < count; ++n) {
+          const std::int32_t* line = lines + line_fields * (first + n);
+          float forward = 1, backward = 1;
+          if (!isotropic) {
+            const glm::vec3 w = direction_of(line), t = node.to_camera;
+            const f32::Float mu = f32::fma(w.x, t.x, f32::fma(w.y, t.y, w.z * t.z));
+            const int kind = static_cast<int>(a.phase.kind);
+            forward = f32::phase_value(kind, a.phase.g, mu).v;
+            backward = f32::phase_value(kind, a.phase.g, -mu).v;
+          }
+          out[3] += forward + backward;
+          add_beams(Links(shape, view.floats(a.links), line, first + n), line, beams[n], node, forward, backward, sum);
+        }
+        std::copy_n(sum, 3, out);
+      }
+    });
+  }
+  float* out = view.made(a.sources);
+  for (int axis = 0; axis < 3; ++axis) out[axis] = a.nodes[axis];
+  out[3] = 0;
+  const std::size_t all = nx * ny * nz;
+  for (std::size_t n = 0; n < all; ++n) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = sums[4 * n + c] / sums[4 * n + 3];
+      out[4 + all * c + n] = value;
+      out[3] = std::max(out[3], value);
+    }
+  }
+}
+
+}  // namespace airlight

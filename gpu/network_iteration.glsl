@@ -1,0 +1,132 @@
+// Six programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
+// particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by. SWEEP: light along
+// a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC.
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+#include "gpu/network.glsl"
+
+layout(std430, binding = 0) readonly buffer LinkBuffer { float links[]; };
+layout(std430, binding = 3) buffer SourceBuffer { vec4 sources[]; };
+layout(std430, binding = 4) buffer TakenBuffer { vec4 taken[]; };  // of each line and particle, or each direction and particle
+layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // largest change, largest source, weights, shares
+layout(std430, binding = 6) readonly buffer FirstBuffer { vec4 first_sources[]; };
+layout(std430, binding = 7) buffer MatrixBuffer { float matrix_values[]; };
+
+int weight_at(int line, int v) { return 2 + line * particle_count + v; }
+int share_at(int k) { return 2 + line_count * particle_count + k; }
+int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
+float area_of(int line) { return float(line_field(line, 11)) * float(line_field(line, 12)) * 9.094947017729282e-13; }  // 2^-40
+
+// Light along one way of a list of n particles from `record` on; what they take is set, or added to.
+void sweep(int line, int record, int n, bool backward, int source, int to, bool adds) {
+  vec3 beam = vec3(0.0);
+  vec3 waiting = vec3(0.0);  // of the particle that the last link led to
+  float area = area_of(line);
+  for (int step = 0; step <= n; ++step) {
+    int k = record + (backward ? n - step : step);
+    int before = particle_of(line, k == record ? k : k - 1);
+    int after = particle_of(line, k == record + n ? k - 1 : k);
+    float lost = links[record_at(line, 2) + k];
+    float given = links[record_at(line, 3) + k];
+    float kept = links[record_at(line, 4) + k];
+    vec3 mean = 0.5 * (sources[source + before].xyz + sources[source + after].xyz);
+    vec3 got = given * beam + kept * mean;
+    beam += given * mean - lost * beam;
+    if (step == 0) {
+      waiting = got;
+    } else {
+      int left = backward ? after : before;
+      vec3 sum = area * (waiting + (step == n ? got : 0.5 * got));
+      taken[to + left] = vec4(adds ? taken[to + left].xyz + sum : sum, 0.0);
+      waiting = 0.5 * got;
+    }
+  }
+}
+
+void main() {
+  int n = item();
+#ifdef START
+#ifdef ISOTROPIC
+  if (n >= particle_count) return;
+#else
+  if (n >= 2 * line_count * particle_count) return;
+#endif
+  sources[n] = first_sources[n];
+#endif
+#ifdef PHASES
+  int directions = 2 * line_count;
+  if (n >= directions * directions) return;
+  matrix_values[n] = phase_value(phase_kind, phase_g, dot3(network_direction(n % directions), network_direction(n / directions)));
+#endif
+#ifdef WEIGHTS
+  if (n >= line_count * slots) return;
+  int line = n / slots;
+  int c = n % slots;
+  int first = int(links[begin_at(line, c)]);
+  int last = int(links[begin_at(line, c + 1)]);
+  for (int k = first; k < last; ++k) {
+    int record = record_at(line, 1) + k + c;
+    float before = links[record] * (k == first ? 1.0 : 0.5);
+    float after = links[record + 1] * (k + 1 == last ? 1.0 : 0.5);
+    words[weight_at(line, particle_of(line, k + c))] = floatBitsToUint(area_of(line) * (before + after));
+  }
+#endif
+#ifdef SHARES
+#ifdef ISOTROPIC
+  if (n >= particle_count) return;
+  float sum = 0.0;
+  for (int line = 0; line < line_count; ++line) sum += uintBitsToFloat(words[weight_at(line, n)]);
+  words[share_at(n)] = floatBitsToUint(0.5 / max(sum, 1e-30));
+#else
+  int directions = 2 * line_count;
+  if (n >= directions * particle_count) return;
+  float sum = 0.0;
+  for (int j = 0; j < directions; ++j)
+    sum += matrix_values[n / particle_count + directions * j] * uintBitsToFloat(words[weight_at(j / 2, n % particle_count)]);
+  words[share_at(n)] = floatBitsToUint(1.0 / max(sum, 1e-30));
+#endif
+#endif
+#ifdef SWEEP
+  int list = n / slots;
+  int c = n % slots;
+#ifdef ISOTROPIC
+  int line = list;
+#else
+  int line = list / 2;
+#endif
+  if (line >= line_count) return;
+  int first = int(links[begin_at(line, c)]);
+  int count = int(links[begin_at(line, c + 1)]) - first;
+  if (count == 0) return;
+#ifdef ISOTROPIC
+  sweep(line, first + c, count, false, 0, line * particle_count, false);
+  sweep(line, first + c, count, true, 0, line * particle_count, true);
+#else
+  int at = list * particle_count;
+  sweep(line, first + c, count, list % 2 == 1, at, at, false);
+  for (int k = 0; k < count; ++k) {
+    int v = particle_of(line, first + c + k);
+    taken[at + v].xyz *= uintBitsToFloat(words[share_at(at + v)]) * particle_rgb(particle_albedo, v);
+  }
+#endif
+#endif
+#ifdef SCATTER
+  int v = n % particle_count;
+  vec3 sum = vec3(0.0);
+#ifdef ISOTROPIC
+  if (n >= particle_count) return;
+  for (int line = 0; line < line_count; ++line) sum += taken[line * particle_count + v].xyz;
+  sum *= uintBitsToFloat(words[share_at(v)]) * particle_rgb(particle_albedo, v);
+#else
+  int directions = 2 * line_count;
+  if (n >= directions * particle_count) return;
+  int row = directions * (n / particle_count);
+  for (int d = 0; d < directions; ++d) sum = fma(vec3(matrix_values[row + d]), taken[d * particle_count + v].xyz, sum);
+#endif
+  vec3 now = first_sources[n].xyz + sum;
+  vec3 change = abs(now - sources[n].xyz);
+  sources[n] = vec4(now, 0.0);
+  atomicMax(words[0], floatBitsToUint(max(change.x, max(change.y, change.z))));
+  atomicMax(words[1], floatBitsToUint(max(now.x, max(now.y, now.z))));
+#endif
+}

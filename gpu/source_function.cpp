@@ -1,0 +1,47 @@
+#include <algorithm>
+
+#include "gpu/network.h"
+
+namespace airlight {
+
+void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
+  constexpr GLuint beams_number = 50, sums_number = 51, most_number = 52;  // buffers of this step
+  constexpr std::size_t chunk = 32;                                        // lines whose beams are held at once
+  const NetworkShape shape = a.shape();
+  bind_network(r, a,
+               {.slots = static_cast<std::int32_t>(shape.slots),
+                .phase_kind = static_cast<std::int32_t>(a.phase.kind),
+                .phase_g = static_cast<float>(a.phase.g),
+                .unit = a.unit,
+                .camera = glm::vec4(a.camera, 0)});
+  const std::size_t nodes = (a.floats() - 4) / 3;
+  network_bytes(r, a.sources.bytes);
+  r.storage(0, a.links);
+  r.storage(3, a.particle_sources);
+  r.reserve(beams_number, network_bytes(r, 8 * sizeof(float) * std::min(chunk, shape.lines) * shape.records()));
+  r.bind(4, beams_number);
+  r.reserve(sums_number, network_bytes(r, 4 * sizeof(float) * nodes));
+  r.bind(5, sums_number);
+  r.storage(6, a.sources);
+  const float most = 0;
+  r.fill(most_number, std::as_bytes(std::span(&most, 1)));
+  const auto each = [&](const char* define, std::size_t items, std::size_t first) {
+    progress.check();
+    Program& program = r.compute("gpu/source_function.glsl", {define});
+    program.set("first_node", a.first);
+    program.set("nodes", a.nodes);
+    program.set("stride", a.stride);
+    program.set("first_line", static_cast<int>(first));
+    program.set("end_line", static_cast<int>(std::min(first + chunk, shape.lines)));
+    r.each(program, items, network_group);
+  };
+  for (std::size_t first = 0; first < shape.lines; first += chunk) {
+    each("BEAMS", std::min(chunk, shape.lines - first) * shape.slots, first);
+    each("NODES", nodes, first);
+  }
+  r.bind(7, most_number);
+  each("MEANS", nodes, 0);
+  each("HEAD", 1, 0);
+}
+
+}  // namespace airlight

@@ -1,0 +1,71 @@
+#include "tests/parity/network.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "common/plan/geometry.h"
+#include "common/plan/network.h"
+#include "common/plan/voxels.h"
+
+namespace airlight {
+
+std::vector<LightSource> network_lights() {
+  LightSource lamp, sun;
+  lamp.position = {0.4, 0.3, -5};
+  lamp.power = {3, 2, 1};
+  sun.type = LightType::directional;
+  sun.direction = glm::dvec3(0.6, -0.8, 0);
+  sun.power = {1, 2, 3};
+  return {lamp, sun};
+}
+
+TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSource>& lights, const NetworkParts& parts) {
+  const MediumBox box = medium_box(scene, 12);
+  const NetworkFrame frame = network_frame(box);
+  TestNetwork t;
+  for (const Plan::Upload& upload : network_uploads(scene, box, parts.particles, parts.lines, parts.window, 1))
+    c.buffers.emplace_back(upload.buffer, upload.make());
+  const auto floats = [](std::uint32_t id, std::size_t n) { return Buffer{{id}, sizeof(float) * n}; };
+  VisibilityNetwork& n = t.network;
+  n.particles = c.buffers[c.buffers.size() - 2].first;
+  n.lines = c.buffers.back().first;
+  if (scene.medium.grid) {
+    n.voxels = add_voxels(c, *scene.medium.grid, 3);
+    n.grid = grid_density(*scene.medium.grid, frame.middle);
+  }
+  n.gaussians = gaussians_of(scene, frame.middle);
+  n.particle_count = parts.particles, n.line_count = parts.lines, n.window = parts.window;
+  n.unit = static_cast<float>(frame.unit);
+  n.extinction = parts.extinction;
+  n.links = floats(4, n.shape().links());
+
+  const bool isotropic = parts.phase.kind == PhaseKind::isotropic;
+  const std::size_t sources =
+      4 * static_cast<std::size_t>(parts.particles) * (isotropic ? 1 : 2 * static_cast<std::size_t>(parts.lines));
+  ParticleLight& l = t.light;
+  l.particles = n.particles, l.lines = n.lines, l.voxels = n.voxels;
+  l.gaussians = n.gaussians, l.grid = n.grid, l.phase = parts.phase;
+  for (const LightSource& one : lights) l.lights.push_back(light_of(one, frame.middle));
+  l.particle_count = n.particle_count, l.line_count = n.line_count;
+  l.unit = n.unit, l.extinction = n.extinction;
+  l.first = floats(5, sources);
+
+  NetworkIteration& i = t.iteration;
+  i.particles = n.particles, i.lines = n.lines, i.links = n.links, i.first = l.first, i.phase = parts.phase;
+  i.particle_count = n.particle_count, i.line_count = n.line_count, i.window = n.window;
+  i.tolerance = parts.tolerance, i.iterations = parts.iterations;
+  i.sources = floats(6, sources);
+  i.residuals = floats(7, 1 + static_cast<std::size_t>(parts.iterations));
+
+  SourceFunction& s = t.source;
+  s.particles = n.particles, s.lines = n.lines, s.links = n.links, s.particle_sources = i.sources, s.phase = parts.phase;
+  s.particle_count = n.particle_count, s.line_count = n.line_count, s.window = n.window, s.unit = n.unit;
+  s.camera = scene.camera.position - frame.middle;
+  s.first = glm::floor((box.corner - frame.middle) / frame.unit);
+  s.stride = static_cast<int>(std::ceil(box.cell / frame.unit));
+  s.nodes = glm::vec3(box.cells + 1);
+  s.sources = floats(8, s.floats());
+  return t;
+}
+
+}  // namespace airlight

@@ -1,0 +1,28 @@
+// Illumination networks for the parity cases and the tests of their steps.
+#pragma once
+
+#include "tests/parity/medium.h"
+
+namespace airlight {
+
+struct TestNetwork {
+  VisibilityNetwork network;
+  ParticleLight light;
+  NetworkIteration iteration;
+  SourceFunction source;
+};
+
+struct NetworkParts {
+  int particles = 500, lines = 12, window = 8;
+  Phase phase = {};
+  float extinction = 0.1F;
+  float tolerance = 1e-6F;
+  int iterations = 300;
+};
+
+// All four steps for the scene's medium under these lights; their inputs become buffers 1 to 3 of the case, their outputs 4 to 8.
+TestNetwork test_network(Case&, const Scene&, const std::vector<LightSource>&, const NetworkParts&);
+// A point light in the medium of test_gaussian_scene() and a directional one.
+std::vector<LightSource> network_lights();
+
+}  // namespace airlight

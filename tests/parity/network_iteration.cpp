@@ -1,0 +1,30 @@
+#include "tests/parity/network.h"
+
+namespace airlight {
+
+namespace {
+
+Case iterate(int gaussians, const NetworkParts& parts) {
+  Case c;
+  const TestNetwork t = test_network(c, test_gaussian_scene(gaussians), network_lights(), parts);
+  c.steps = {{t.network, ""}, {t.light, ""}, {t.iteration, ""}};
+  c.results = {{"sources", t.iteration.sources}};
+  return c;
+}
+
+const NamedCase cases[] = {
+    {"network_iteration/isotropic", [](Extent) { return iterate(7, {}); }},
+    {"network_iteration/without_fog", [](Extent) { return iterate(7, {.lines = 40, .extinction = 0}); }},
+    {"network_iteration/forward",
+     [](Extent) {
+       return iterate(7, {.lines = 8, .phase = {PhaseKind::henyey_greenstein, 0.6}, .iterations = 40});
+     }},
+    {"network_iteration/first_order", [](Extent) { return iterate(5, {.iterations = 1}); }},
+    {"network_iteration/one_particle", [](Extent) { return iterate(2, {.particles = 1, .lines = 1, .window = 1}); }},
+};
+
+}  // namespace
+
+std::span<const NamedCase> network_iteration_cases() { return cases; }
+
+}  // namespace airlight

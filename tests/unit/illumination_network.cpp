@@ -1,0 +1,407 @@
+// The steps of an illumination network on the CPU against what they are meant to be: particles against the density, links against
+// closed forms, the iteration against a dense solve in double and against the light that goes in and out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "app/airlight.h"
+#include "common/plan/network.h"
+#include "common/techniques/technique.h"
+#include "cpu/backend.h"
+#include "tests/parity/network.h"
+#include "tests/tolerances.h"
+
+namespace airlight {
+
+namespace {
+
+// A case with its steps run, and what came out of them.
+class Ran {
+ public:
+  Ran(const Scene& scene, const std::vector<LightSource>& lights, const NetworkParts& parts) : parts_(parts) {
+    t = test_network(case_, scene, lights, parts);
+    case_.steps = {{t.network, ""}, {t.light, ""}, {t.iteration, ""}};
+    upload(backend_, case_);
+    Stats stats;
+    NoProgress progress;
+    backend_.run(case_.steps, stats, progress);
+    links = download(backend_, t.network.links);
+    first = download(backend_, t.light.first);
+    sources = download(backend_, t.iteration.sources);
+    residuals = download(backend_, t.iteration.residuals);
+    const auto floats = [&](std::size_t k) {
+      const std::vector<std::byte>& bytes = case_.buffers[k].second;
+      return std::span(reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float));
+    };
+    particles.assign(floats(0).begin(), floats(0).end());
+    const std::span<const float> line_bits = floats(1);
+    lines.assign(reinterpret_cast<const std::int32_t*>(line_bits.data()),
+                 reinterpret_cast<const std::int32_t*>(line_bits.data()) + line_bits.size());
+    shape = t.network.shape();
+  }
+
+  double link(std::size_t line, int plane, std::size_t record) const {
+    return static_cast<double>(links[shape.record(line, plane) + record]);
+  }
+  double particle(std::size_t plane, std::size_t v) const { return static_cast<double>(particles[plane * shape.particles + v]); }
+  double area(std::size_t line) const {
+    const std::int32_t* l = lines.data() + line * line_fields;
+    return static_cast<double>(l[line_pixel]) * l[line_pixel + 1];
+  }
+  glm::dvec3 axis(std::size_t line, int field) const {
+    const std::int32_t* l = lines.data() + line * line_fields + field;
+    return glm::dvec3(l[0], l[1], l[2]) / static_cast<double>(lattice_length);
+  }
+  // body(pixel, its particles in order, its first record)
+  template <class Body>
+  void each_list(std::size_t line, Body&& body) const {
+    const float* begin = links.data() + line * (shape.slots + 1);
+    for (std::size_t c = 0; c < shape.slots; ++c) {
+      const auto a = static_cast<std::size_t>(begin[c]), b = static_cast<std::size_t>(begin[c + 1]);
+      std::vector<std::size_t> list;
+      for (std::size_t k = a; k < b; ++k) list.push_back(static_cast<std::size_t>(link(line, link_particle, k + c)));
+      if (!list.empty()) body(c, list, a + c);
+    }
+  }
+
+  TestNetwork t;
+  NetworkShape shape;
+  std::vector<float> links, first, sources, residuals, particles;
+  std::vector<std::int32_t> lines;
+
+ private:
+  NetworkParts parts_;
+  Case case_;
+  CpuBackend backend_{CpuOptions{.threads = 2}};
+};
+
+Scene two_gaussians(double albedo) {
+  Scene scene;
+  scene.camera.position = {0, 0, 4};
+  for (const double x : {-0.5, 0.8}) {
+    Gaussian g;
+    g.center = {x, 0.2 * x, 0};
+    g.radius = x < 0 ? 0.7 : 0.5;
+    g.extinction = x < 0 ? 2 : 5;
+    g.albedo = glm::dvec3(albedo);
+    scene.medium.gaussians.push_back(g);
+  }
+  return scene;
+}
+
+// n equations, by elimination.
+std::vector<double> solve(std::vector<std::vector<double>> m, std::vector<double> right) {
+  const std::size_t n = right.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t pivot = i;
+    for (std::size_t k = i + 1; k < n; ++k) pivot = std::fabs(m[k][i]) > std::fabs(m[pivot][i]) ? k : pivot;
+    std::swap(m[i], m[pivot]), std::swap(right[i], right[pivot]);
+    for (std::size_t k = i + 1; k < n; ++k) {
+      const double factor = m[k][i] / m[i][i];
+      if (factor == 0) continue;
+      for (std::size_t j = i; j < n; ++j) m[k][j] -= factor * m[i][j];
+      right[k] -= factor * right[i];
+    }
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = i + 1; j < n; ++j) right[i] -= m[i][j] * right[j];
+    right[i] /= m[i][i];
+  }
+  return right;
+}
+
+// What one way of a line's list does, as a matrix: [taking particle][sending particle], straight from the links' definition, with
+// transmittances and their integrals in double instead of the stored shares.
+template <class Add>
+void list_matrix(const Ran& ran, std::size_t line, const std::vector<std::size_t>& list, std::size_t record, bool backward,
+                 Add&& add) {
+  const std::size_t n = list.size();
+  struct Link {
+    double depth;
+    std::size_t ends[2];
+  };
+  std::vector<Link> way;
+  for (std::size_t k = 0; k <= n; ++k)
+    way.push_back({ran.link(line, link_depth, record + k), {list[k == 0 ? 0 : k - 1], list[k == n ? n - 1 : k]}});
+  if (backward) std::reverse(way.begin(), way.end());
+  for (std::size_t from = 0; from <= n; ++from) {
+    double arriving = 0;  // of one unit of source in link `from`
+    for (std::size_t to = from; to <= n; ++to) {
+      const double lost = -std::expm1(-way[to].depth);
+      const double taken = to == from ? way[to].depth - lost : arriving * lost;
+      for (const std::size_t sends : way[from].ends) {
+        for (const std::size_t takes : way[to].ends) add(takes, sends, 0.25 * taken * ran.area(line));
+      }
+      arriving = to == from ? lost : arriving * (1 - lost);
+    }
+  }
+}
+
+double relative_largest(const std::vector<double>& found, const std::vector<double>& truth) {
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    worst = std::max(worst, std::fabs(found[i] - truth[i]));
+    largest = std::max(largest, std::fabs(truth[i]));
+  }
+  return worst / largest;
+}
+
+TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
+  const Ran ran(two_gaussians(0.9), network_lights(),
+                {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400});
+  const std::size_t n = ran.shape.particles;
+  std::vector<std::vector<double>> taken(n, std::vector<double>(n, 0.0));
+  std::vector<double> weight(n, 0.0);
+  for (std::size_t line = 0; line < ran.shape.lines; ++line) {
+    ran.each_list(line, [&](std::size_t, const std::vector<std::size_t>& list, std::size_t record) {
+      for (const bool backward : {false, true}) {
+        list_matrix(ran, line, list, record, backward, [&](std::size_t to, std::size_t from, double x) { taken[to][from] += x; });
+      }
+      for (std::size_t k = 0; k <= list.size(); ++k) {
+        const double depth = ran.link(line, link_depth, record + k) * ran.area(line);  // half an end, both ways
+        weight[list[k == 0 ? 0 : k - 1]] += depth;
+        weight[list[k == list.size() ? k - 1 : k]] += depth;
+      }
+    });
+  }
+  std::vector<std::vector<double>> m(n, std::vector<double>(n));
+  std::vector<double> first(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j)
+      m[i][j] = (i == j ? 1.0 : 0.0) - ran.particle(particle_albedo, i) * taken[i][j] / weight[i];
+    first[i] = static_cast<double>(ran.first[4 * i]);
+  }
+  std::vector<double> found(n);
+  for (std::size_t i = 0; i < n; ++i) found[i] = static_cast<double>(ran.sources[4 * i]);
+  const double error = relative_largest(found, solve(m, first));
+  std::printf("%g of the largest, %g rounds\n", error, static_cast<double>(ran.residuals[0]));
+  EXPECT_LE(error, tolerance("network_dense"));
+  EXPECT_LT(ran.residuals[0], 400);
+}
+
+// The same where sources depend on the direction: one unknown a particle and direction.
+TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
+  const Ran ran(two_gaussians(0.8), network_lights(),
+                {.particles = 20,
+                 .lines = 5,
+                 .window = 3,
+                 .phase = {PhaseKind::henyey_greenstein, 0.5},
+                 .extinction = 0,
+                 .tolerance = 1e-8F,
+                 .iterations = 400});
+  const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
+  const auto phase = [&](std::size_t d, std::size_t i) {
+    const auto way = [&](std::size_t k) { return glm::normalize(ran.axis(k / 2, line_direction)) * (k % 2 == 0 ? 1.0 : -1.0); };
+    return 0.75 / std::pow(1.25 - glm::dot(way(d), way(i)), 1.5);
+  };
+  std::vector<std::vector<double>> weight(directions, std::vector<double>(n, 0.0)), share = weight;
+  std::vector<std::vector<std::vector<double>>> taken(directions,
+                                                      std::vector<std::vector<double>>(n, std::vector<double>(n, 0.0)));
+  for (std::size_t d = 0; d < directions; ++d) {
+    const std::size_t line = d / 2;
+    ran.each_list(line, [&](std::size_t, const std::vector<std::size_t>& list, std::size_t record) {
+      list_matrix(ran, line, list, record, d % 2 == 1,
+                  [&](std::size_t to, std::size_t from, double x) { taken[d][to][from] += x; });
+      for (std::size_t k = 0; k <= list.size(); ++k) {
+        const double depth = 0.5 * ran.link(line, link_depth, record + k) * ran.area(line);
+        weight[d][list[k == 0 ? 0 : k - 1]] += depth;
+        weight[d][list[k == list.size() ? k - 1 : k]] += depth;
+      }
+    });
+  }
+  for (std::size_t d = 0; d < directions; ++d) {
+    for (std::size_t v = 0; v < n; ++v) {
+      for (std::size_t j = 0; j < directions; ++j) share[d][v] += phase(d, j) * weight[j][v];
+    }
+  }
+  const std::size_t all = n * directions;
+  std::vector<std::vector<double>> m(all, std::vector<double>(all, 0.0));
+  std::vector<double> first(all);
+  for (std::size_t i = 0; i < directions; ++i) {
+    for (std::size_t v = 0; v < n; ++v) {
+      m[i * n + v][i * n + v] = 1;
+      first[i * n + v] = static_cast<double>(ran.first[4 * (i * n + v)]);
+      for (std::size_t d = 0; d < directions; ++d) {
+        const double x = ran.particle(particle_albedo, v) * phase(d, i) / share[d][v];
+        for (std::size_t from = 0; from < n; ++from) m[i * n + v][d * n + from] -= x * taken[d][v][from];
+      }
+    }
+  }
+  std::vector<double> found(all);
+  for (std::size_t k = 0; k < all; ++k) found[k] = static_cast<double>(ran.sources[4 * k]);
+  const double error = relative_largest(found, solve(m, first));
+  std::printf("%g of the largest, %g rounds\n", error, static_cast<double>(ran.residuals[0]));
+  EXPECT_LE(error, tolerance("network_dense"));
+}
+
+// At albedo 1, what leaves all lines is what the first sources put into them.
+void out_is_in(const Phase& phase) {
+  const Ran ran(two_gaussians(1), network_lights(),
+                {.particles = 200, .lines = 10, .window = 5, .phase = phase, .extinction = 0, .tolerance = 0, .iterations = 400});
+  const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
+  const bool isotropic = phase.kind == PhaseKind::isotropic;
+  const auto value = [&](std::size_t d, std::size_t v) { return 4 * ((isotropic ? 0 : d * n) + v); };
+  double in = 0, out = 0;
+  for (std::size_t d = 0; d < directions; ++d) {
+    const std::size_t line = d / 2;
+    ran.each_list(line, [&](std::size_t, const std::vector<std::size_t>& list, std::size_t record) {
+      double beam = 0;
+      for (std::size_t step = 0; step <= list.size(); ++step) {
+        const std::size_t k = d % 2 == 0 ? step : list.size() - step;
+        const std::size_t a = list[k == 0 ? 0 : k - 1], b = list[k == list.size() ? k - 1 : k];
+        const double depth = ran.link(line, link_depth, record + k);
+        const auto mean = [&](const auto& of) { return 0.5 * (of(a) + of(b)); };
+        in += depth * ran.area(line) * mean([&](std::size_t v) { return static_cast<double>(ran.first[value(d, v)]); });
+        beam += -std::expm1(-depth) * (mean([&](std::size_t v) { return static_cast<double>(ran.sources[value(d, v)]); }) - beam);
+      }
+      out += beam * ran.area(line);
+    });
+  }
+  std::printf("out / in - 1 = %g after %g rounds\n", out / in - 1, static_cast<double>(ran.residuals[0]));
+  EXPECT_LE(std::fabs(out / in - 1), tolerance("network_energy"));
+}
+
+TEST(IlluminationNetwork, WhatGoesInComesOut) { out_is_in({}); }
+TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::henyey_greenstein, 0.7}); }
+
+// Each particle once a line, in order, in the pixel where it is; the links of a list add up to the whole line through its pixel.
+TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
+  const Ran ran(two_gaussians(1), {}, {.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F});
+  double worst = 0, worst_other = 0;
+  for (std::size_t line = 0; line < ran.shape.lines; ++line) {
+    std::set<std::size_t> seen;
+    const std::int32_t* l = ran.lines.data() + line * line_fields;
+    const glm::dvec3 way = ran.axis(line, line_direction), across = ran.axis(line, line_across), down = ran.axis(line, line_down);
+    ran.each_list(line, [&](std::size_t c, const std::vector<std::size_t>& list, std::size_t record) {
+      const auto unit = static_cast<double>(ran.t.network.unit);
+      const auto middle = [&](int which, std::size_t number) {
+        const double pixel = l[line_pixel + which];
+        return (l[line_begin + which] + (static_cast<double>(number) + 0.5) * pixel) * unit / lattice_length;
+      };
+      const auto columns = static_cast<std::size_t>(l[line_pixels]);
+      const double x = middle(0, c % columns), y = middle(1, c / columns);
+      double before = -1e9;
+      for (const std::size_t v : list) {
+        EXPECT_TRUE(seen.insert(v).second);
+        const glm::dvec3 p = glm::dvec3(ran.particle(0, v), ran.particle(1, v), ran.particle(2, v)) * unit;
+        EXPECT_LE(std::fabs(glm::dot(p, across) - x), (0.5 * l[line_pixel] + 1) * unit / lattice_length);
+        EXPECT_LE(std::fabs(glm::dot(p, down) - y), (0.5 * l[line_pixel + 1] + 1) * unit / lattice_length);
+        EXPECT_GE(glm::dot(p, way), before - 1e-9);
+        before = glm::dot(p, way);
+      }
+      double sum = 0, truth = 0;
+      for (std::size_t k = 0; k <= list.size(); ++k) {
+        const double depth = ran.link(line, link_depth, record + k);
+        sum += depth;
+        // Fog between particles takes too: given is what is lost but for it.
+        if (k == 0 || k == list.size()) continue;
+        const auto along = [&](std::size_t v) {
+          return glm::dot(glm::dvec3(ran.particle(0, v), ran.particle(1, v), ran.particle(2, v)) * unit, way);
+        };
+        const double all = depth + 0.3 * (along(list[k]) - along(list[k - 1]));
+        const double lost = -std::expm1(-all), given = all > 0 ? lost * depth / all : 0;
+        worst_other = std::max({worst_other, std::fabs(ran.link(line, link_lost, record + k) - lost),
+                                std::fabs(ran.link(line, link_given, record + k) - given)});
+      }
+      for (const GaussianDensity& g : ran.t.network.gaussians) {
+        const glm::dvec3 center(g.center);
+        const double dx = glm::dot(center, across) - x, dy = glm::dot(center, down) - y, r = static_cast<double>(g.radius);
+        truth += static_cast<double>(g.extinction) * r * std::sqrt(M_PI) * std::exp(-(dx * dx + dy * dy) / (r * r));
+      }
+      worst = std::max(worst, std::fabs(sum - truth));
+    });
+    EXPECT_EQ(seen.size(), ran.shape.particles);
+  }
+  std::printf("depth of a line off by %g, shares of a link by %g\n", worst, worst_other);
+  EXPECT_LE(worst, tolerance("network_line_depth"));
+  EXPECT_LE(worst_other, tolerance("link_shares"));
+}
+
+// Means and second moments of the particles about each Gaussian, and how many each has.
+TEST(IlluminationNetwork, ParticlesFollowTheDensity) {
+  const Scene scene = two_gaussians(0.7);
+  const MediumBox box = medium_box(scene, 16);
+  const NetworkFrame frame = network_frame(box);
+  constexpr int n = 4096;
+  const std::vector<float> planes = network_particles(scene, frame, n);
+  // By the density: masses c r^3, and about the middle of all.
+  double masses = 0;
+  glm::dvec3 mean(0), squares(0);
+  for (const Gaussian& g : scene.medium.gaussians) {
+    const double mass = g.extinction * std::pow(g.radius, 3);
+    masses += mass;
+    mean += mass * g.center;
+    squares += mass * (g.center * g.center + 0.5 * g.radius * g.radius);
+  }
+  glm::dvec3 found_mean(0), found_squares(0);
+  for (std::size_t v = 0; v < n; ++v) {
+    glm::dvec3 p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(planes[static_cast<std::size_t>(axis) * n + v]);
+    p = frame.middle + p * frame.unit;
+    found_mean += p / static_cast<double>(n);
+    found_squares += p * p / static_cast<double>(n);
+    EXPECT_NEAR(static_cast<double>(planes[particle_albedo * n + v]), 0.7, 1e-6);
+  }
+  double error = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    error = std::max(
+        {error, std::fabs(found_mean[axis] - mean[axis] / masses), std::fabs(found_squares[axis] - squares[axis] / masses)});
+  }
+  std::printf("moments off by %g\n", error);
+  EXPECT_LE(error, tolerance("network_moments"));
+}
+
+// Of a warm frame only what changed is made again: the camera moves, the lights change, then the medium.
+TEST(IlluminationNetwork, OnlyWhatChangedIsMadeAgain) {
+  Scene scene = two_gaussians(0.8);
+  scene.camera.resolution = {24, 18};
+  scene.lights = network_lights();
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  settings.knobs = {{"particles", "200"}, {"directions", "20"}, {"resolution", "8"}, {"steps", "8"}};
+  Renderer warm({.backend = "cpu"});
+  const auto ran = [&] {
+    const Frame frame = warm.render(scene, settings);
+    Renderer cold({.backend = "cpu"});
+    EXPECT_EQ(frame.image("beauty").values, cold.render(scene, settings).image("beauty").values);
+    std::string names;
+    for (const StepStats& step : frame.stats.steps) {
+      const bool of_network = step.name == "visibility_network" || step.name == "particle_light" ||
+                              step.name == "network_iteration" || step.name == "source_function";
+      if (of_network && !step.reused) names += step.name + " ";
+      if (step.name != "network_iteration") continue;
+      EXPECT_EQ(step.residuals.empty(), step.reused);
+      if (!step.residuals.empty()) {
+        EXPECT_LE(step.residuals.back(), 5e-4F);
+      }
+    }
+    return names;
+  };
+  EXPECT_EQ(ran(), "visibility_network particle_light network_iteration source_function ");
+  scene.camera.position.z += 0.5;
+  EXPECT_EQ(ran(), "");
+  scene.lights[0].power *= 2;
+  EXPECT_EQ(ran(), "particle_light network_iteration source_function ");
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.3};
+  EXPECT_EQ(ran(), "particle_light network_iteration source_function ");
+  scene.camera.position.x += 0.5;
+  EXPECT_EQ(ran(), "source_function ");
+  scene.medium.gaussians[1].extinction *= 2;
+  EXPECT_EQ(ran(), "visibility_network particle_light network_iteration source_function ");
+}
+
+TEST(IlluminationNetwork, RefusesWhatHasNoParticles) {
+  Scene fog;
+  fog.medium.extinction = 0.1;
+  const auto why = technique("illumination-network").refuses(fog);
+  ASSERT_TRUE(why);
+  EXPECT_NE(why->find("neither"), std::string::npos) << *why;
+}
+
+}  // namespace
+
+}  // namespace airlight
