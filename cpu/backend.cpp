@@ -29,6 +29,13 @@ struct Group {
   Extent extent;
 };
 
+// Whether any pixel of the tile has its airlight computed, and not just taken from `known`.
+template <class March>
+bool wants_airlight(const March& a, const TileView& view) {
+  const float* known = view.plane(a.known);
+  return known == nullptr || std::any_of(known, known + tile_pixels, [](float value) { return value < 0; });
+}
+
 // A transient image lives in tile scratch when only one group touches it.
 struct Scratch {
   AlignedFloats floats;
@@ -100,7 +107,8 @@ struct CpuBackend::State {
   requires requires(const Shadowed& a) { a.volumes; }
   void run_tile(std::size_t index, const Shadowed& a, const TileView& view, int worker) {
     std::span<const LitParts> lit;
-    if (a.volumes) lit = shadow_rasterisers.at(index).lit_parts(a.view, a.distance, a.sky_distance, view, worker);
+    if (a.volumes && wants_airlight(a, view))
+      lit = shadow_rasterisers.at(index).lit_parts(a.view, a.distance, a.sky_distance, view, worker);
     airlight::run_tile(a, view, simd, lit);
   }
 };
@@ -151,6 +159,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
   struct Place {
     std::uint32_t id;
     HeldImage* whole;
+    bool other;  // of another extent
     std::size_t offset;
   };
   std::vector<Place> places;
@@ -160,7 +169,9 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
   const auto place = [&](const Image& image) {
     if (std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.id == image.id; })) return;
     const auto held = images.find(image);
-    places.push_back({image.id, held == images.end() ? nullptr : &held->second, scratch_floats});
+    const bool other = image.extent != group.extent;
+    if (other && held == images.end()) throw std::logic_error("a step reads an image of another extent that is not there");
+    places.push_back({image.id, held == images.end() ? nullptr : &held->second, other, scratch_floats});
     if (held == images.end()) {
       scratch_floats += static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
     }
@@ -190,6 +201,10 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     s.floats.resize(scratch_floats);
     s.seconds.assign(steps.size(), 0.0);
     s.view.images.assign(last_id + 1, nullptr);
+    s.view.others.assign(last_id + 1, nullptr);
+    for (const Place& p : places) {
+      if (p.other) s.view.others[p.id] = p.whole;
+    }
     s.view.buffers.assign(last_id + 1, {});
     for (const auto& [id, bytes] : inputs) s.view.buffers[id] = bytes;
   }
@@ -197,7 +212,9 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     if (progress.stop_requested()) throw Interrupted();
     Scratch& s = scratch[static_cast<std::size_t>(worker)];
     s.view.tile = tiling.tile(t);
-    for (const Place& p : places) s.view.images[p.id] = p.whole ? p.whole->tile(t) : s.floats.data() + p.offset;
+    for (const Place& p : places) {
+      if (!p.other) s.view.images[p.id] = p.whole ? p.whole->tile(t) : s.floats.data() + p.offset;
+    }
     for (const std::size_t i : group.steps) {
       const Clock::time_point start = Clock::now();
       std::visit([&](const auto& a) { run_tile(i, a, s.view, worker); }, steps[i].what);

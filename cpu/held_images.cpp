@@ -61,6 +61,26 @@ void HeldImage::from_rows(std::span<const float> rows) {
   });
 }
 
+void HeldImage::copy_row(int x, int y, int n, int channel, int layer, float* to) const {
+  const Tiling tiling{image_.extent};
+  const int last = image_.extent.width - 1, row = std::clamp(y, 0, image_.extent.height - 1);
+  const std::ptrdiff_t in_tile = (layer * channels(image_.format) + channel) * tile_pixels + row % tile_side * tile_side;
+  const float* tiles = tile(row / tile_side * tiling.columns()) + in_tile;
+  const auto at = [&](int column) {
+    return tiles + column / tile_side * static_cast<std::ptrdiff_t>(floats_per_tile_) + column % tile_side;
+  };
+  for (int done = 0; done < n;) {
+    const int column = x + done;
+    if (column < 0 || column > last) {
+      to[done++] = *at(std::clamp(column, 0, last));
+      continue;
+    }
+    const int run = std::min({n - done, last + 1 - column, tile_side - column % tile_side});
+    std::copy_n(at(column), run, to + done);
+    done += run;
+  }
+}
+
 void HeldImage::to_rows(std::span<float> rows) const {
   if (rows.size() != image_.floats()) throw std::logic_error("image download: wrong number of floats");
   each_row_piece([&](const float* in_tile, std::size_t first, int pixels, int stride) {

@@ -34,6 +34,13 @@ class HeldImage {
   void reset(const Image&);
   float* tile(int index) const { return values_.data() + static_cast<std::size_t>(index) * floats_per_tile_; }
   const Image& image() const { return image_; }
+  // Of one layer and channel the `n` pixels from (x, y) on; beyond the border those at the border are repeated.
+  void copy_row(int x, int y, int n, int channel, int layer, float* to) const;
+  // One pixel, which must lie in the image.
+  float at(int x, int y, int channel = 0, int layer = 0) const {
+    const int index = y / tile_side * Tiling{image_.extent}.columns() + x / tile_side;
+    return tile(index)[(layer * channels(image_.format) + channel) * tile_pixels + y % tile_side * tile_side + x % tile_side];
+  }
   void from_rows(std::span<const float>);
   void to_rows(std::span<float>) const;
 

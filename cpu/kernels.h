@@ -21,6 +21,8 @@ void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
 void run_tile(const RayMarch&, const TileView&, Simd, std::span<const LitParts> lit);
 void run_tile(const GaussianAirlight&, const TileView&, Simd, std::span<const LitParts> lit);
 void run_tile(const LightMarch&, const TileView&, Simd);
+void run_tile(const Subsample&, const TileView&, Simd);
+void run_tile(const DepthAwareUpsample&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 // Those that make buffers.
 void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);

@@ -27,10 +27,13 @@ struct Tiling {
   Tile tile(int index) const { return {index, index % columns() * tile_side, index / columns() * tile_side}; }
 };
 
+class HeldImage;
+
 // What a kernel sees of one tile: its place, and its pixels of each image.
 struct TileView {
   Tile tile;
   std::vector<float*> images;                       // by handle id; each [layer][channel][tile_pixels]
+  std::vector<const HeldImage*> others;             // by handle id: images of another extent, whole
   std::vector<std::span<const std::byte>> buffers;  // by handle id
 
   float* plane(const Image& image, int channel = 0, int layer = 0) const {

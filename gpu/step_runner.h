@@ -109,6 +109,8 @@ void run(const SourceFunction&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);
 void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);
+void run(const Subsample&, StepRunner&, const Progress&);
+void run(const DepthAwareUpsample&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

@@ -7,6 +7,7 @@
 
 #include "common/algorithms/compose.h"
 #include "common/algorithms/density_injection.h"
+#include "common/algorithms/depth_aware_upsample.h"
 #include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
@@ -16,6 +17,7 @@
 #include "common/algorithms/ray_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/algorithms/source_function.h"
+#include "common/algorithms/subsample.h"
 #include "common/algorithms/surface_airlight.h"
 #include "common/algorithms/surface_shading.h"
 #include "common/algorithms/surface_visibility.h"
@@ -26,7 +28,8 @@ namespace airlight {
 
 using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
                                HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
-                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, LightMarch, Compose>;
+                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, LightMarch, Subsample,
+                               DepthAwareUpsample, Compose>;
 
 struct Step {
   Algorithm what;

@@ -17,8 +17,9 @@ constexpr Field in(std::string_view name, std::string_view unit = "") { return {
 constexpr Field out(std::string_view name, std::string_view unit = "") { return {name, unit, Role::output}; }
 constexpr Field knob(std::string_view name, std::string_view unit = "") { return {name, unit, Role::knob}; }
 
-// pixel: reads and writes only its own pixel, so that consecutive steps may be run tile by tile; screen: everything else
-// that makes screen images; volume: makes buffers, and no image.
+// pixel: of images as large as those that it makes it reads only its own pixel, so that consecutive steps may be run tile by
+// tile; smaller or larger ones it may read anywhere. screen: everything else that makes screen images; volume: makes buffers,
+// and no image.
 enum class Domain { pixel, screen, volume };
 
 }  // namespace airlight

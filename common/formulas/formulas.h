@@ -11,3 +11,4 @@
 #include "common/formulas/marching.h"
 #include "common/formulas/depth_volume.h"
 #include "common/formulas/network.h"
+#include "common/formulas/upsample.h"

@@ -1,0 +1,36 @@
+// What the pixels of one tile need of the samples around them, laid out so that every pixel finds it in its own column.
+#pragma once
+
+#include <cstddef>
+
+#include "common/algorithms/depth_aware_upsample.h"
+#include "cpu/held_images.h"
+#include "cpu/tile.h"
+
+namespace airlight {
+
+class SampleWindow {
+ public:
+  // Rows of samples, from the second above the tile's first one on.
+  static constexpr int rows_before = 2, rows = tile_side / 2 + 4;
+
+  // In a row of samples, for each column of pixels: the sample at its left, the one at its right, and their bend.
+  struct Row {
+    const float *left, *right, *bend;
+  };
+
+  SampleWindow(const DepthAwareUpsample&, const TileView&);
+
+  Extent extent;  // of all samples
+  int first_row;  // of the window, in samples
+  // Plane 0 is 1/distance, 1..3 are channels of airlight, 4 + 3 k the first channel of light k.
+  Row row(int plane, int sample_row) const {
+    const float* left = values_.data() + (static_cast<std::ptrdiff_t>(plane) * rows + sample_row - first_row) * 3 * tile_side;
+    return {left, left + tile_side, left + 2 * tile_side};
+  }
+
+ private:
+  AlignedFloats values_;
+};
+
+}  // namespace airlight

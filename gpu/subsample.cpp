@@ -1,0 +1,16 @@
+#include "gpu/step_runner.h"
+
+namespace airlight {
+
+void run(const Subsample& a, StepRunner& r, const Progress& progress) {
+  Program& program = r.compute("gpu/subsample.glsl", {});
+  r.read(0, a.whole);
+  r.write(0, a.part);
+  program.set("stride", a.stride);
+  View view;
+  view.extent = a.part.extent;
+  r.view(view);
+  r.each_pixel(program, a.part.extent, progress);
+}
+
+}  // namespace airlight

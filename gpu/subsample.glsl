@@ -1,0 +1,12 @@
+#include "gpu/dialect.glsl"
+#include "gpu/screen.glsl"
+
+layout(binding = 0) uniform sampler2DArray whole;
+layout(binding = 0, r32f) uniform writeonly image2DArray part;
+uniform int stride;
+
+void main() {
+  ivec2 p = this_pixel();
+  if (outside(p)) return;
+  imageStore(part, ivec3(p, 0), texelFetch(whole, ivec3(p * stride, 0), 0));
+}
