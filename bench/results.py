@@ -109,6 +109,10 @@ def shadows(out):
     return "\n".join(lines_of(os.path.join(out, "shadows.txt"))).strip()
 
 
+def sampled(out):
+    return "\n".join(lines_of(os.path.join(out, "sampled.txt"))).strip()
+
+
 def propagation(out):
     return "```\n" + "\n".join(lines_of(os.path.join(out, "propagation.txt"))).strip() + "\n```"
 
@@ -198,7 +202,7 @@ def main():
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
               "shadows": (shadows, "shadows.txt"),
-              "propagation": (propagation, "propagation.txt"), "erf": (erf, "erf.json")}
+              "propagation": (propagation, "propagation.txt"), "sampled": (sampled, "sampled.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

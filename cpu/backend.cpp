@@ -29,11 +29,9 @@ struct Group {
   Extent extent;
 };
 
-// Whether any pixel of the tile has its airlight computed, and not just taken from `known`.
-template <class March>
-bool wants_airlight(const March& a, const TileView& view) {
-  const float* known = view.plane(a.known);
-  return known == nullptr || std::any_of(known, known + tile_pixels, [](float value) { return value < 0; });
+// Whether a ray of the tile has a length: of pixels that DepthAwareUpsample has served none has.
+bool any_ray(const float* distance) {
+  return std::any_of(distance, distance + tile_pixels, [](float value) { return value > 0; });
 }
 
 // A transient image lives in tile scratch when only one group touches it.
@@ -107,7 +105,7 @@ struct CpuBackend::State {
   requires requires(const Shadowed& a) { a.volumes; }
   void run_tile(std::size_t index, const Shadowed& a, const TileView& view, int worker) {
     std::span<const LitParts> lit;
-    if (a.volumes && wants_airlight(a, view))
+    if (a.volumes && any_ray(view.plane(a.distance)))
       lit = shadow_rasterisers.at(index).lit_parts(a.view, a.distance, a.sky_distance, view, worker);
     airlight::run_tile(a, view, simd, lit);
   }

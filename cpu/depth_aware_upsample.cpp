@@ -48,31 +48,20 @@ struct Serving {
 
   HWY_INLINE Real of(const Channel& s, const Between& p) const {
     const Real bent = upsampled(s.a, s.b, s.c, s.d, s.above, s.below, s.left, s.right, p.u, p.v);
-    const Real mean = fma(weights[0], s.a, fma(weights[1], s.b, fma(weights[2], s.c, weights[3] * s.d)));
-    return select(served, select(smooth, bent, mean), -1.0);
+    const Real mean = weighted_mean(s.a, s.b, s.c, s.d, weights[0], weights[1], weights[2], weights[3]);
+    return select(served, select(smooth, bent, mean), 0.0);
   }
 };
 
 HWY_INLINE Real largest(Real a, Real b, Real c, Real d) { return max(max(a, b), max(c, d)); }
 HWY_INLINE Real least(Real a, Real b, Real c, Real d) { return min(min(a, b), min(c, d)); }
 
-HWY_INLINE Serving serving(const DepthAwareUpsample& a, const Between& p, Real distance, const Channel* channels) {
-  const float tolerance = a.tolerance;
-  const Real inverse = 1.0 / distance;
-  const SampleWindow::Row upper = p.window.row(0, p.row), lower = p.window.row(0, p.row + 1);
-  const Real end[4] = {load(upper.left + p.column), load(upper.right + p.column), load(lower.left + p.column),
-                       load(lower.right + p.column)};
-  const Real u = min(p.u, 1.0), v = min(Real(p.v), 1.0);
-  Real bilinear[4] = {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
-  Real fit[4], fitting = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    fit[k] = bilinear[k] * depth_fit(inverse, end[k], tolerance);
-    fitting += fit[k];
-  }
-  Real most = 0.0, most_fitting = 0.0, error = 0.0, spread = 0.0, spread_fitting = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const Channel& s = channels[c];
-    error = max(error, upsampling_error(s.above, s.below, s.left, s.right, p.u, p.v));
+// What is known of the samples' values: the largest, and the error of each way.
+struct Errors {
+  Real most = 0.0, most_fitting = 0.0, smooth = 0.0, spread = 0.0, spread_fitting = 0.0;
+
+  HWY_INLINE void add(const Channel& s, const Real* fit, const Between& p) {
+    smooth = max(smooth, upsampling_error(s.above, s.below, s.left, s.right, p.u, p.v));
     const Real high = largest(s.a, s.b, s.c, s.d);
     most = max(most, high);
     spread = max(spread, high - least(s.a, s.b, s.c, s.d));
@@ -85,12 +74,37 @@ HWY_INLINE Serving serving(const DepthAwareUpsample& a, const Between& p, Real d
     most_fitting = max(most_fitting, high_fitting);
     spread_fitting = max(spread_fitting, high_fitting - low_fitting);
   }
+};
+
+// channels: three of airlight and the transmittance.
+HWY_INLINE Serving serving(const DepthAwareUpsample& a, const Between& p, Real distance, const Channel* channels) {
+  const float tolerance = a.tolerance;
+  const Real inverse = 1.0 / distance;
+  const SampleWindow::Row upper = p.window.row(0, p.row), lower = p.window.row(0, p.row + 1);
+  const Real end[4] = {load(upper.left + p.column), load(upper.right + p.column), load(lower.left + p.column),
+                       load(lower.right + p.column)};
+  const Real u = min(p.u, 1.0), v = min(Real(p.v), 1.0);
+  const Real bilinear[4] = {(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
+  Real fit[4], fitting = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    fit[k] = bilinear[k] * depth_fit(inverse, end[k], tolerance);
+    fitting += fit[k];
+  }
+  Errors light, through;
+  for (int c = 0; c < 3; ++c) light.add(channels[c], fit, p);
+  through.add(channels[3], fit, p);
+  through.most = max(through.most, least_transmittance());
+  through.most_fitting = max(through.most_fitting, least_transmittance());
+
   const Real flat = between(between(end[0], end[1], p.u), between(end[2], end[3], p.u), p.v);
+  const Real most = light.most * tolerance, most_through = through.most * tolerance;
   Serving s;
-  s.smooth = (abs(flat - inverse) <= inverse * tolerance) && (error <= most * tolerance);
+  s.smooth = (abs(flat - inverse) <= inverse * tolerance) && (light.smooth <= most) && (through.smooth <= most_through);
   const Mask within = (inverse >= least(end[0], end[1], end[2], end[3]) * (1.0 - tolerance)) &&
-                      (inverse <= largest(end[0], end[1], end[2], end[3]) * (1.0 + tolerance)) && (spread <= most * tolerance);
-  const Mask fits = (fitting >= least_fit()) && (spread_fitting <= most_fitting * tolerance);
+                      (inverse <= largest(end[0], end[1], end[2], end[3]) * (1.0 + tolerance)) && (light.spread <= most) &&
+                      (through.spread <= most_through);
+  const Mask fits = (fitting >= least_fit()) && (light.spread_fitting <= light.most_fitting * tolerance) &&
+                    (through.spread_fitting <= through.most_fitting * tolerance);
   s.served = s.smooth || within || fits;
   const Real whole = 1.0 / max(fitting, 1e-6);
   for (int k = 0; k < 4; ++k) s.weights[k] = select(within, bilinear[k], fit[k] * whole);
@@ -110,11 +124,14 @@ static void depth_aware_upsample(const DepthAwareUpsample& a, const TileView& vi
     const Real u = x - min(floor(x), static_cast<float>(last_column));
     const float v = static_cast<float>(y) * step - static_cast<float>(row);
     const Between p{window, i % tile_side, row, u, v, row > 0, row < last_row};
-    const Channel channels[3] = {Channel(p, 1), Channel(p, 2), Channel(p, 3)};
+    const Channel channels[4] = {Channel(p, 1), Channel(p, 2), Channel(p, 3), Channel(p, SampleWindow::transmittance_plane)};
     const Serving s = serving(a, p, load(distance + i), channels);
+    store(select(s.served, 0.0, load(distance + i)), view.plane(a.remaining) + i);
     for (int c = 0; c < 3; ++c) store(s.of(channels[c], p), view.plane(a.airlight, c) + i);
+    store(min(s.of(channels[3], p), 1.0), view.plane(a.transmittance) + i);
     for (int k = 0; k < layers; ++k) {
-      for (int c = 0; c < 3; ++c) store(s.of(Channel(p, 4 + 3 * k + c), p), view.plane(a.per_light, c, k) + i);
+      for (int c = 0; c < 3; ++c)
+        store(s.of(Channel(p, SampleWindow::first_light_plane + 3 * k + c), p), view.plane(a.per_light, c, k) + i);
     }
   }
 }

@@ -14,7 +14,7 @@ SampleWindow::SampleWindow(const DepthAwareUpsample& a, const TileView& view)
   for (int x = 0; x < tile_side; ++x) left_of[x] = std::min((view.tile.x + x) / a.stride, last_cell) - first_column;
 
   const int layers = a.per_light ? a.per_light.layers : 0;
-  float* to = values_.resize(static_cast<std::size_t>(4 + 3 * layers) * rows * 3 * tile_side);
+  float* to = values_.resize(static_cast<std::size_t>(first_light_plane + 3 * layers) * rows * 3 * tile_side);
   const auto fill = [&](const Image& image, int channel, int layer, bool inverse) {
     float samples[columns], bends[columns] = {};
     for (int row = 0; row < rows; ++row, to += 3 * static_cast<std::ptrdiff_t>(tile_side)) {
@@ -31,6 +31,7 @@ SampleWindow::SampleWindow(const DepthAwareUpsample& a, const TileView& view)
   };
   fill(a.sampled_distance, 0, 0, true);
   for (int c = 0; c < 3; ++c) fill(a.sampled_airlight, c, 0, false);
+  fill(a.sampled_transmittance, 0, 0, false);
   for (int k = 0; k < layers; ++k) {
     for (int c = 0; c < 3; ++c) fill(a.sampled_per_light, c, k, false);
   }

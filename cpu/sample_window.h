@@ -23,7 +23,8 @@ class SampleWindow {
 
   Extent extent;  // of all samples
   int first_row;  // of the window, in samples
-  // Plane 0 is 1/distance, 1..3 are channels of airlight, 4 + 3 k the first channel of light k.
+  // Plane 0 is 1/distance, 1 .. 3 are channels of airlight, 4 is the transmittance; then come three channels a light.
+  static constexpr int transmittance_plane = 4, first_light_plane = 5;
   Row row(int plane, int sample_row) const {
     const float* left = values_.data() + (static_cast<std::ptrdiff_t>(plane) * rows + sample_row - first_row) * 3 * tile_side;
     return {left, left + tile_side, left + 2 * tile_side};

@@ -7,9 +7,12 @@ void run(const DepthAwareUpsample& a, StepRunner& r, const Progress& progress) {
   r.read(0, a.distance);
   r.read(1, a.sampled_distance);
   r.read(2, a.sampled_airlight);
-  if (a.per_light) r.read(3, a.sampled_per_light);
+  r.read(3, a.sampled_transmittance);
+  if (a.per_light) r.read(4, a.sampled_per_light);
   r.write(0, a.airlight);
   r.write(1, a.per_light);
+  r.write(2, a.remaining);
+  r.write(3, a.transmittance);
   View view;
   view.extent = a.airlight.extent;
   r.view(view);

@@ -4,9 +4,12 @@
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray sampled_distance;
 layout(binding = 2) uniform sampler2DArray sampled_airlight;
-layout(binding = 3) uniform sampler2DArray sampled_per_light;
+layout(binding = 3) uniform sampler2DArray sampled_transmittance;
+layout(binding = 4) uniform sampler2DArray sampled_per_light;
 layout(binding = 0, rgba32f) uniform writeonly image2DArray airlight_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray per_light_image;
+layout(binding = 2, r32f) uniform writeonly image2DArray remaining_image;
+layout(binding = 3, r32f) uniform writeonly image2DArray transmittance_image;
 
 layout(std140, binding = 2) uniform Knobs {
   int columns;  // of samples
@@ -55,7 +58,35 @@ Channel[3] channels_of(sampler2DArray samples, int layer) {
 float most_of(vec4 x) { return max(max(x.x, x.y), max(x.z, x.w)); }
 float least_of(vec4 x) { return min(min(x.x, x.y), min(x.z, x.w)); }
 
-void find_serving(float distance, Channel[3] channels) {
+// What is known of the samples' values: the largest, and the error of each way.
+struct Errors {
+  float most;
+  float most_fitting;
+  float flat_error;
+  float spread;
+  float spread_fitting;
+};
+
+void add_errors(inout Errors e, Channel channel, vec4 fit) {
+  vec4 four = channel.four;
+  vec4 bends = channel.bends;
+  e.flat_error = max(e.flat_error, upsampling_error(bends.x, bends.y, bends.z, bends.w, u, v));
+  float high = most_of(four);
+  e.most = max(e.most, high);
+  e.spread = max(e.spread, high - least_of(four));
+  float high_fitting = 0.0;
+  float low_fitting = 1e30;
+  for (int k = 0; k < 4; ++k) {
+    if (fit[k] > 0.0) {
+      high_fitting = max(high_fitting, four[k]);
+      low_fitting = min(low_fitting, four[k]);
+    }
+  }
+  e.most_fitting = max(e.most_fitting, high_fitting);
+  e.spread_fitting = max(e.spread_fitting, high_fitting - low_fitting);
+}
+
+void find_serving(float distance, Channel[3] channels, Channel transmittances) {
   float inverse = 1.0 / distance;
   vec4 end;
   vec4 fit;
@@ -69,50 +100,33 @@ void find_serving(float distance, Channel[3] channels) {
     fit[k] = bilinear[k] * depth_fit(inverse, end[k], tolerance);
     fitting += fit[k];
   }
-  float most = 0.0;
-  float most_fitting = 0.0;
-  float error = 0.0;
-  float spread = 0.0;
-  float spread_fitting = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    vec4 four = channels[c].four;
-    vec4 bends = channels[c].bends;
-    error = max(error, upsampling_error(bends.x, bends.y, bends.z, bends.w, u, v));
-    float high = most_of(four);
-    most = max(most, high);
-    spread = max(spread, high - least_of(four));
-    float high_fitting = 0.0;
-    float low_fitting = 1e30;
-    for (int k = 0; k < 4; ++k) {
-      if (fit[k] > 0.0) {
-        high_fitting = max(high_fitting, four[k]);
-        low_fitting = min(low_fitting, four[k]);
-      }
-    }
-    most_fitting = max(most_fitting, high_fitting);
-    spread_fitting = max(spread_fitting, high_fitting - low_fitting);
-  }
+  Errors light = Errors(0.0, 0.0, 0.0, 0.0, 0.0);
+  Errors through = light;
+  for (int c = 0; c < 3; ++c) add_errors(light, channels[c], fit);
+  add_errors(through, transmittances, fit);
+  through.most = max(through.most, least_transmittance());
+  through.most_fitting = max(through.most_fitting, least_transmittance());
+
   float flat_end = between(between(end.x, end.y, u), between(end.z, end.w, u), v);
-  smooth_here = abs(flat_end - inverse) <= inverse * tolerance && error <= most * tolerance;
-  bool within = inverse >= least_of(end) * (1.0 - tolerance) && inverse <= most_of(end) * (1.0 + tolerance) && spread <= most * tolerance;
-  bool fits = fitting >= least_fit() && spread_fitting <= most_fitting * tolerance;
+  float most = light.most * tolerance;
+  float most_through = through.most * tolerance;
+  smooth_here = abs(flat_end - inverse) <= inverse * tolerance && light.flat_error <= most && through.flat_error <= most_through;
+  bool within = inverse >= least_of(end) * (1.0 - tolerance) && inverse <= most_of(end) * (1.0 + tolerance) && light.spread <= most &&
+                through.spread <= most_through;
+  bool fits = fitting >= least_fit() && light.spread_fitting <= light.most_fitting * tolerance &&
+              through.spread_fitting <= through.most_fitting * tolerance;
   served = smooth_here || within || fits;
   weights = within ? bilinear : fit * (1.0 / max(fitting, 1e-6));
 }
 
-vec4 value_of(Channel[3] channels) {
-  vec4 value = vec4(-1.0, -1.0, -1.0, 0.0);
-  for (int c = 0; c < 3 && served; ++c) {
-    vec4 four = channels[c].four;
-    vec4 bends = channels[c].bends;
-    if (smooth_here) {
-      value[c] = upsampled(four.x, four.y, four.z, four.w, bends.x, bends.y, bends.z, bends.w, u, v);
-    } else {
-      value[c] = fma(weights.x, four.x, fma(weights.y, four.y, fma(weights.z, four.z, weights.w * four.w)));
-    }
-  }
-  return value;
+float value_of(Channel channel) {
+  if (!served) return 0.0;
+  vec4 four = channel.four;
+  vec4 bends = channel.bends;
+  if (smooth_here) return upsampled(four.x, four.y, four.z, four.w, bends.x, bends.y, bends.z, bends.w, u, v);
+  return weighted_mean(four.x, four.y, four.z, four.w, weights.x, weights.y, weights.z, weights.w);
 }
+vec4 values_of(Channel[3] channels) { return vec4(value_of(channels[0]), value_of(channels[1]), value_of(channels[2]), 0.0); }
 
 void main() {
   ivec2 p = this_pixel();
@@ -122,10 +136,15 @@ void main() {
   first = ivec2(corner);
   u = place.x - corner.x;
   v = place.y - corner.y;
-  Channel[3] channels = channels_of(sampled_airlight, 0);
-  find_serving(texelFetch(distance_image, ivec3(p, 0), 0).x, channels);
-  imageStore(airlight_image, ivec3(p, 0), value_of(channels));
+  ivec3 at = ivec3(p, 0);
+  float distance = texelFetch(distance_image, at, 0).x;
+  Channel channels[3] = channels_of(sampled_airlight, 0);
+  Channel transmittances = channels_of(sampled_transmittance, 0)[0];
+  find_serving(distance, channels, transmittances);
+  imageStore(remaining_image, at, vec4(served ? 0.0 : distance));
+  imageStore(airlight_image, at, values_of(channels));
+  imageStore(transmittance_image, at, vec4(min(value_of(transmittances), 1.0)));
 #ifdef WITH_PER_LIGHT
-  for (int k = 0; k < layers; ++k) imageStore(per_light_image, ivec3(p, k), value_of(channels_of(sampled_per_light, k)));
+  for (int k = 0; k < layers; ++k) imageStore(per_light_image, ivec3(p, k), values_of(channels_of(sampled_per_light, k)));
 #endif
 }

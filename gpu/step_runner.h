@@ -111,6 +111,7 @@ void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);
 void run(const Subsample&, StepRunner&, const Progress&);
 void run(const DepthAwareUpsample&, StepRunner&, const Progress&);
+void run(const FillAirlight&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

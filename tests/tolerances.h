@@ -26,6 +26,9 @@ inline constexpr Tolerance tolerances[] = {
     {"log_ulp", 2.5, "ULP of log_ away from 1, where its value is small in absolute terms"},
     {"parity_off_edges", 0.0002,
      "share of pixels, of the normals of a million triangles alone: smaller than 1/10 pixel, that rounding picks a neighbour"},
+    {"parity_sampled", 0.0005,
+     "share of pixels of which samples tell just enough on one backend, and not on the other: the difference is what samples may "
+     "leave"},
     {"parity_edge_share", 0.002,
      "CPU and GL round projected vertices to 1/256 pixel from differently rounded floats: pixels on an edge may see the other "
      "side"},
@@ -52,6 +55,10 @@ inline constexpr Tolerance tolerances[] = {
     {"depth_volume_32", 0.01,
      "relative RMS of optical depths looked up in a volume of 32 cells an edge, radii of three cells and more"},
     {"depth_volume_64", 0.003, "the same with 64"},
+    {"truth_sampled", 0.01,
+     "relative RMSE of gaussian-airlight with eight nodes at half and quarter resolution: the tolerance of DepthAwareUpsample, "
+     "by "
+     "pixel"},
     {"truth_printed_erf", 0.001,
      "what the printed error function adds: 2e-4 of the whole line through a Gaussian, where that is an optical depth of a few"},
     {"truth_airlight_everywhere", 0.002,
@@ -127,6 +134,10 @@ inline constexpr Tolerance tolerances[] = {
     {"step_means", 1e-2,
      "beside the step: one of a tenth of the light's distance takes the half angle for the means, 0.1 / 12 away where it points "
      "at the light"},
+    {"upsampled", 6e-7, "beside the largest sample: three or four fused steps of numbers up to that"},
+    {"depth_fit_double", 1e-12, "of 1: the inputs' quotient, magnified by the tolerance"},
+    {"depth_fit", 1e-6, "of 1: a product and a quotient rounded, squared; the difference of ends so near is exact"},
+    {"weighted_mean_double", 2e-7, "beside the largest sample: weights are floats, whose sum is 1 to rounding"},
     {"airlight_allowed", 1, "a multiple of airlight_value of the value and airlight_end of the end value"},
 };
 

@@ -8,6 +8,7 @@
 #include "common/algorithms/compose.h"
 #include "common/algorithms/density_injection.h"
 #include "common/algorithms/depth_aware_upsample.h"
+#include "common/algorithms/fill_airlight.h"
 #include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
@@ -26,10 +27,10 @@
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
-                               HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
-                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, LightMarch, Subsample,
-                               DepthAwareUpsample, Compose>;
+using Algorithm =
+    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading, HomogeneousAirlight,
+                 DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight, NetworkIteration, SourceFunction,
+                 RayMarch, GaussianAirlight, LightMarch, Subsample, DepthAwareUpsample, FillAirlight, Compose>;
 
 struct Step {
   Algorithm what;

@@ -41,3 +41,16 @@ FORMULA real depth_fit(real inverse, real of_sample, real tolerance) {
 FORMULA real least_fit() {
   return 0.125;
 }
+
+// The mean of four samples by weights of sum 1, from the least that has a weight on: that of equal ones is the same, in every bit,
+// and one without a weight is not felt however large it is.
+FORMULA real weighted_mean(real a, real b, real c, real d, real of_a, real of_b, real of_c, real of_d) {
+  real low = min(min(select(of_a > 0.0, a, real(1e30)), select(of_b > 0.0, b, real(1e30))),
+                 min(select(of_c > 0.0, c, real(1e30)), select(of_d > 0.0, d, real(1e30))));
+  return fma(of_a, a - low, fma(of_b, b - low, fma(of_c, c - low, fma(of_d, d - low, low))));
+}
+
+// Below this transmittance its error counts beside it, not beside itself: surfaces are hardly seen there.
+FORMULA real least_transmittance() {
+  return 0.0625;
+}

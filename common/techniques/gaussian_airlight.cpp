@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/plan/frame.h"
+#include "common/plan/sampled_airlight.h"
 
 namespace airlight {
 
@@ -15,7 +16,7 @@ std::optional<std::string> refuses(const Scene& scene) {
 }
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id };
+  enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id, samples_id = surfaces_id + 2 };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -48,6 +49,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                                .transmittance = frame.transmittance,
                                                .optical_depth = frame.optical_depth},
                               "light scattered once along the view ray"});
+  sample_airlight(frame, samples_id);  // section 5.4
   // Section 4: surfaces are lit through the medium.
   LightMarch way;
   way.gaussians = gaussians, way.light_steps = 1, way.light_depth = LightDepth::analytic, way.erf = erf;
@@ -69,6 +71,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   double error = 1e-4;
   if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
   if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
+  if (knobs.choice("airlight_resolution") != "full") error = HUGE_VAL;  // what samples do not tell is not modelled
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
   const double pixels = static_cast<double>(extent.width) * extent.height;
@@ -104,6 +107,7 @@ Technique gaussian_airlight() {
        .baselines = {"fast"}},
       table_nodes_knob(),
       shadows_knob(),
+      airlight_resolution_knob(),
       indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;

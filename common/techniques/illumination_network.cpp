@@ -7,6 +7,7 @@
 
 #include "common/plan/frame.h"
 #include "common/plan/network.h"
+#include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -35,7 +36,8 @@ enum : std::uint32_t {
   first_id,
   particle_sources_id,
   residuals_id,
-  sources_id
+  sources_id,
+  samples_id
 };
 
 // The steps before the view ray, and what RayMarch reads of them.
@@ -173,6 +175,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .transmittance = frame.transmittance,
                                        .optical_depth = frame.optical_depth},
                               "light scattered once along the view ray, and that of the particles"});
+  sample_airlight(frame, samples_id);
   LightMarch way;
   way.voxels = voxels, way.gaussians = gaussians, way.grid = grid;
   way.light_steps = medium.grid ? light_steps : 1, way.light_depth = LightDepth::analytic;
@@ -252,6 +255,7 @@ Technique illumination_network() {
               .meaning = "steps along the view ray in each stretch of medium",
               .sweep = {}},
              shadows_knob(),
+             airlight_resolution_knob(),
              indirect_knob()};
   t.multiple_scattering = true;
   t.refuses = refuses;

@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "common/plan/frame.h"
+#include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -15,7 +16,7 @@ namespace {
 constexpr double grid_scale = 6;  // cells over which the extinction of a grid is taken to change, in estimate()
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
-  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, volumes_id, surfaces_id };
+  enum : std::uint32_t { voxels_id = FramePlan::first_own_id, volumes_id, surfaces_id, samples_id = surfaces_id + 2 };
   const Medium& medium = scene.medium;
   FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
@@ -57,6 +58,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .transmittance = frame.transmittance,
                                        .optical_depth = frame.optical_depth},
                               "the view ray through the medium, step by step"});
+  sample_airlight(frame, samples_id);
   LightMarch way;
   way.voxels = voxels, way.gaussians = gaussians, way.grid = grid;
   way.light_steps = light_steps, way.light_depth = light_depth;
@@ -114,7 +116,8 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const LightSource& l) { return l.type == LightType::point; });
   const double lights = static_cast<double>(scene.lights.size());
   const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
-  double error = 3e-5, nanoseconds = 4 * lights;
+  // What samples do not tell is not modelled.
+  double error = knobs.choice("airlight_resolution") == "full" ? 3e-5 : HUGE_VAL, nanoseconds = 4 * lights;
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
   if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
   if (medium.extinction > 0) {
@@ -178,6 +181,7 @@ Technique marching() {
               .meaning = "how the light's way through Gaussians is attenuated",
               .sweep = {"analytic", "march"}},
              shadows_knob(),
+             airlight_resolution_knob(),
              indirect_knob()};
   t.refuses = [](const Scene&) { return std::optional<std::string>(); };
   t.plan = plan;

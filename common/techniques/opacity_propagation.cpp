@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/plan/depth_volumes.h"
 #include "common/plan/frame.h"
+#include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -37,7 +38,14 @@ bool holds_in_a_grid(const Medium& medium) {
 
 glm::vec3 grid_albedo(const Medium& medium) { return medium.grid ? medium.grid->albedo : medium.gaussians.front().albedo; }
 
-enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id, voxels_id = surfaces_id + 2, injected_id, depths_id };
+enum : std::uint32_t {
+  volumes_id = FramePlan::first_own_id,
+  surfaces_id,
+  voxels_id = surfaces_id + 2,
+  injected_id,
+  samples_id,
+  depths_id = samples_id + sampled_airlight_ids
+};
 
 // Both of a scene with Gaussians or a grid.
 struct VolumePlan {
@@ -170,6 +178,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                        .transmittance = frame.transmittance,
                                        .optical_depth = frame.optical_depth},
                               "the view ray through the medium, step by step"});
+  sample_airlight(frame, samples_id);
   LightMarch way;
   way.voxels = density.voxels, way.gaussians = density.gaussians, way.grid = density.grid;
   way.depths = depths, way.depth_volumes = depth_volumes, way.light_steps = 1, way.light_depth = light_depth;
@@ -223,6 +232,7 @@ Technique opacity_propagation() {
        .sweep = {},
        .baselines = {"exact"}},
       shadows_knob(),
+      airlight_resolution_knob(),
       indirect_knob()};
   t.refuses = [](const Scene&) { return std::optional<std::string>(); };
   t.plan = plan;

@@ -92,5 +92,12 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 44) r[0] = depth_beside(kind, a[0], a[1], a[2]);
   if (formula == 45) link_shares(a[0], a[1], r[0], r[1], r[2]);
   if (formula == 46) r[0] = source_in_volume(t, kind, a[0], a[1], a[2]);
+  if (formula == 60) {
+    r[0] = upsampled(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
+    r[1] = upsampling_error(a[4], a[5], a[6], a[7], a[8], a[9]);
+  }
+  if (formula == 61) r[0] = bend_between(a[0], a[1], a[2], a[3], a[4] > 0.5, a[5] > 0.5);
+  if (formula == 62) r[0] = depth_fit(a[0], a[1], a[2]);
+  if (formula == 63) r[0] = weighted_mean(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

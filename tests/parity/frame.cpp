@@ -50,6 +50,10 @@ Case propagated(Extent e, const char* density, const char* scheme) {
   const Set set{{"resolution", "12"}, {"steps", "6"}, {"density", density}, {"scheme", scheme}};
   return frame(torus_among_gaussians(), e, opacity_propagation(), set);
 }
+Case sampled(Extent e, const Technique& technique, const char* resolution, Set set) {
+  set.emplace_back("airlight_resolution", resolution);
+  return frame(torus_among_gaussians(), e, technique, set);
+}
 Case marched_shadows(Extent e) { return frame(torus_among_gaussians(), e, marching(), {{"steps", "6"}}); }
 
 }  // namespace
@@ -61,6 +65,14 @@ std::span<const NamedCase> frame_cases() {
       {"frame/empty_fog", empty_fog},
       {"frame/shadows_in_gaussians", shadows_in_gaussians},
       {"frame/marched_shadows", marched_shadows},
+      {"frame/half_airlight",
+       [](Extent e) {
+         return sampled(e, gaussian_airlight(), "half", {{"samples", "3"}});
+       }},
+      {"frame/quarter_of_a_march",
+       [](Extent e) {
+         return sampled(e, marching(), "quarter", {{"steps", "6"}});
+       }},
       {"frame/propagated", [](Extent e) { return propagated(e, "exact", "rays"); }},
       {"frame/propagated_in_cells", [](Extent e) { return propagated(e, "volume", "upwind"); }}};
   return cases;

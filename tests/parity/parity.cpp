@@ -47,7 +47,9 @@ void cpu_equals_gl(const NamedCase& named, Extent extent) {
     ASSERT_TRUE(d.finite) << name;
     EXPECT_LE(d.share, share) << name;
     const bool tiny = named.name == "surface_visibility/torus_1M" && name == "normal";
-    EXPECT_LE(d.share_inside, tiny ? tolerance("parity_off_edges") : 0) << name;
+    const bool sampled = named.name == "frame/half_airlight" || named.name == "frame/quarter_of_a_march";
+    const double inside = tiny ? tolerance("parity_off_edges") : sampled ? tolerance("parity_sampled") : 0;
+    EXPECT_LE(d.share_inside, inside) << name;
   }
 }
 

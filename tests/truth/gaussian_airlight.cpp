@@ -41,6 +41,26 @@ void hold_propagation(const Scene& scene, Extent extent, const ReferenceFrame& t
   }
 }
 
+// What samples of the airlight leave, edges of surfaces and of shadows included, where nothing else leaves much.
+void hold_sampled(const Scene& scene, Extent extent, const ReferenceFrame& truth, Renderer& renderer) {
+  for (const char* resolution : {"half", "quarter"}) {
+    RenderSettings settings;
+    settings.technique = "gaussian-airlight";
+    settings.knobs = {{"samples", "8"}, {"airlight_resolution", resolution}};
+    settings.resolution = extent;
+    settings.images = {"beauty", "airlight"};
+    const Frame frame = renderer.render(scene, settings);
+    const RelativeError beauty = relative_error(frame.image("beauty"), truth, parts[0]);
+    const RelativeError airlight = relative_error(frame.image("airlight"), truth, parts[2]);
+    std::printf(
+        "%s, airlight_resolution %s: relative RMSE %.5f %% off edges, of the airlight alone %.5f %%, everywhere %.5f %%\n",
+        frame.device.c_str(), resolution, 100 * beauty.off_edges, 100 * airlight.off_edges, 100 * airlight.everywhere);
+    EXPECT_FALSE(!(beauty.off_edges < tolerance("truth_sampled"))) << frame.device;
+    EXPECT_FALSE(!(airlight.off_edges < tolerance("truth_sampled"))) << frame.device;
+    EXPECT_FALSE(!(airlight.everywhere < tolerance("truth_sampled"))) << frame.device;
+  }
+}
+
 TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
   const Scene scene = GetParam().make();
   const Extent extent = extent_for(scene);
@@ -80,6 +100,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
         EXPECT_GT(printed, airlight);
       }
     }
+    if (extent.width >= 64) hold_sampled(scene, extent, truth, renderer);
     hold_propagation(scene, extent, truth, renderer, backend == std::string("cpu"));
     if (!casters) continue;
     // The comparison sees shadows.

@@ -18,6 +18,7 @@ std::vector<Check> all_checks() {
   add_marching_checks(checks);
   add_depth_volume_checks(checks);
   add_network_checks(checks);
+  add_upsample_checks(checks);
   return checks;
 }
 

@@ -68,6 +68,10 @@ enum class Formula : int {
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
   link_shares = 45,         // depth, all -> lost, given, kept
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
+  upsampled = 60,           // four samples, four bends, u, v -> value, the most that bends add
+  bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0)
+  depth_fit = 62,           // inverse distance, of the sample, tolerance
+  weighted_mean = 63,       // four samples, four weights
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -120,6 +124,7 @@ void add_grid_checks(std::vector<Check>&);
 void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
+void add_upsample_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector
