@@ -9,6 +9,7 @@
 
 #include "app/airlight.h"
 #include "common/relative_rmse.h"
+#include "common/techniques/technique.h"
 
 namespace airlight {
 

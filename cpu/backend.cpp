@@ -29,11 +29,6 @@ struct Group {
   Extent extent;
 };
 
-// Whether a ray of the tile has a length: of pixels that DepthAwareUpsample has served none has.
-bool any_ray(const float* distance) {
-  return std::any_of(distance, distance + tile_pixels, [](float value) { return value > 0; });
-}
-
 // A transient image lives in tile scratch when only one group touches it.
 struct Scratch {
   AlignedFloats floats;

@@ -58,8 +58,9 @@ HWY_INLINE Real least(Real a, Real b, Real c, Real d) { return min(min(a, b), mi
 
 // What is known of the samples' values: the largest, and the error of each way.
 struct Errors {
-  Real most = 0.0, most_fitting = 0.0, smooth = 0.0, spread = 0.0, spread_fitting = 0.0;
+  Real most, most_fitting, smooth, spread, spread_fitting;
 
+  HWY_INLINE Errors() { most = most_fitting = smooth = spread = spread_fitting = 0.0; }
   HWY_INLINE void add(const Channel& s, const Real* fit, const Between& p) {
     smooth = max(smooth, upsampling_error(s.above, s.below, s.left, s.right, p.u, p.v));
     const Real high = largest(s.a, s.b, s.c, s.d);

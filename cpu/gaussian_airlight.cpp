@@ -344,6 +344,10 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
     for (int column = x; column < x + bin_side; column += lanes) {
       const int i = row * tile_side + column;
       const Real length = ray_length(load(distance + i), a.sky_distance);
+      if (!any_lane(length > 0.0)) {
+        store_no_airlight(a, view, i);
+        continue;
+      }
       s.begin(i, length);
       for (const GaussianPanels::Panel& p : panels.panels()) s.panel(p);
 
@@ -378,7 +382,7 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
-      panels.make(a, view.tile.x + x, view.tile.y + y);
+      if (any_ray(view.plane(a.distance), x, y, bin_side)) panels.make(a, view.tile.x + x, view.tile.y + y);
       entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, lit, scratch, lit_scratch, x, y);
     }
   }

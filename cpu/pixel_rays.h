@@ -61,6 +61,18 @@ HWY_INLINE Real3 toward_light(const Light& light, const Real3& p, Real& length) 
   return {way.x * scale, way.y * scale, way.z * scale};
 }
 
+// What an algorithm that makes airlight and transmittance has for pixels i .. i + lanes - 1 whose rays have no length.
+template <class Airlight>
+HWY_INLINE void store_no_airlight(const Airlight& a, const TileView& view, int i) {
+  const auto clear = [&](const Image& image) HWY_ATTR {
+    for (int plane = 0; plane < image.layers * channels(image.format); ++plane) store(0.0, view.plane(image, plane) + i);
+  };
+  clear(a.airlight);
+  if (a.per_light) clear(a.per_light);
+  if (a.optical_depth) clear(a.optical_depth);
+  store(1.0, view.plane(a.transmittance) + i);
+}
+
 }  // namespace airlight::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -203,6 +203,10 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
   March march(a, view, LitRays(lit, scratch));
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
+    if (!any_lane(length > 0.0)) {
+      store_no_airlight(a, view, i);
+      continue;
+    }
     march.begin(i, pixel_rays(a.view, view.tile, i));
     Real behind = 0.0;  // of Gaussians and grid
     if (march.medium.any()) {

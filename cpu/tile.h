@@ -2,6 +2,7 @@
 // also at the border, where the pixels outside the image are computed and never read), one plane a channel.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,6 +27,15 @@ struct Tiling {
   int count() const { return columns() * rows(); }
   Tile tile(int index) const { return {index, index % columns() * tile_side, index / columns() * tile_side}; }
 };
+
+// Whether a ray of a square in a tile has a length. Of pixels that are known without it none has.
+inline bool any_ray(const float* distance, int x = 0, int y = 0, int side = tile_side) {
+  for (int row = y; row < y + side; ++row) {
+    const float* first = distance + row * tile_side + x;
+    if (std::any_of(first, first + side, [](float value) { return value > 0; })) return true;
+  }
+  return false;
+}
 
 class HeldImage;
 

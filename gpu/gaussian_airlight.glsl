@@ -22,6 +22,8 @@ layout(std140, binding = 2) uniform Knobs {
   vec4 rule[16];  // node, weight
 };
 
+#include "gpu/no_airlight.glsl"
+
 // The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
 // parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and
 // the levels; Gaussians.
@@ -282,6 +284,7 @@ void main() {
 #endif
   ivec3 at = ivec3(pixel, 0);
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
+  if (store_no_airlight(at, length, first_light(), end_light())) return;
   end = min(length, 1e15);
   d = pixel_ray(pixel);
   ivec4 square = squares[pixel.x / bin_side + bin_columns * (pixel.y / bin_side)];

@@ -11,6 +11,8 @@ layout(binding = 1, rgba32f) uniform image2DArray per_light_image;
 layout(binding = 2, r32f) uniform image2DArray transmittance_image;
 layout(binding = 3, r32f) uniform writeonly image2DArray optical_depth_image;
 
+#include "gpu/no_airlight.glsl"
+
 layout(std140, binding = 2) uniform Knobs {
   vec4 albedo_extinction;
   vec4 ambient_sky_distance;
@@ -188,6 +190,7 @@ void main() {
 #endif
   ivec3 at = ivec3(pixel, 0);
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
+  if (store_no_airlight(at, length, first_light, end_light)) return;
   float end = min(length, 1e15);
   d = pixel_ray(pixel);
   most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
