@@ -23,10 +23,11 @@ struct Between {
   bool has_above, has_below;  // there are samples above and below the four
 };
 
-// One channel of the four samples, and their bends.
+// One channel of the four samples, their bends and what these may be off by.
 struct Channel {
   Real a, b, c, d;
   Real above, below, left, right;
+  Real error;
 
   HWY_INLINE Channel(const Between& p, int plane) {
     const auto row = [&](int y) { return p.window.row(plane, p.row + y); };
@@ -38,6 +39,9 @@ struct Channel {
     const Mask has_above = (p.has_above ? yes : no) > 0.5, has_below = (p.has_below ? yes : no) > 0.5;
     left = bend_between(at(over.left), a, c, at(under.left), has_above, has_below);
     right = bend_between(at(over.right), b, d, at(under.right), has_above, has_below);
+    const Real left_size = bend_size(at(over.left), a, c, at(under.left), has_above, has_below);
+    const Real right_size = bend_size(at(over.right), b, d, at(under.right), has_above, has_below);
+    error = upsampling_error(at(upper.size), at(lower.size), left_size, right_size, p.u, p.v);
   }
 };
 
@@ -61,8 +65,8 @@ struct Errors {
   Real most, most_fitting, smooth, spread, spread_fitting;
 
   HWY_INLINE Errors() { most = most_fitting = smooth = spread = spread_fitting = 0.0; }
-  HWY_INLINE void add(const Channel& s, const Real* fit, const Between& p) {
-    smooth = max(smooth, upsampling_error(s.above, s.below, s.left, s.right, p.u, p.v));
+  HWY_INLINE void add(const Channel& s, const Real* fit) {
+    smooth = max(smooth, s.error);
     const Real high = largest(s.a, s.b, s.c, s.d);
     most = max(most, high);
     spread = max(spread, high - least(s.a, s.b, s.c, s.d));
@@ -92,8 +96,8 @@ HWY_INLINE Serving serving(const DepthAwareUpsample& a, const Between& p, Real d
     fitting += fit[k];
   }
   Errors light, through;
-  for (int c = 0; c < 3; ++c) light.add(channels[c], fit, p);
-  through.add(channels[3], fit, p);
+  for (int c = 0; c < 3; ++c) light.add(channels[c], fit);
+  through.add(channels[3], fit);
   through.most = max(through.most, least_transmittance());
   through.most_fitting = max(through.most_fitting, least_transmittance());
 
@@ -102,10 +106,10 @@ HWY_INLINE Serving serving(const DepthAwareUpsample& a, const Between& p, Real d
   Serving s;
   s.smooth = (abs(flat - inverse) <= inverse * tolerance) && (light.smooth <= most) && (through.smooth <= most_through);
   const Mask within = (inverse >= least(end[0], end[1], end[2], end[3]) * (1.0 - tolerance)) &&
-                      (inverse <= largest(end[0], end[1], end[2], end[3]) * (1.0 + tolerance)) && (light.spread <= most) &&
-                      (through.spread <= most_through);
-  const Mask fits = (fitting >= least_fit()) && (light.spread_fitting <= light.most_fitting * tolerance) &&
-                    (through.spread_fitting <= through.most_fitting * tolerance);
+                      (inverse <= largest(end[0], end[1], end[2], end[3]) * (1.0 + tolerance)) &&
+                      (light.spread + light.smooth <= most) && (through.spread + through.smooth <= most_through);
+  const Mask fits = (fitting >= least_fit()) && (light.spread_fitting + light.smooth <= light.most_fitting * tolerance) &&
+                    (through.spread_fitting + through.smooth <= through.most_fitting * tolerance);
   s.served = s.smooth || within || fits;
   const Real whole = 1.0 / max(fitting, 1e-6);
   for (int k = 0; k < 4; ++k) s.weights[k] = select(within, bilinear[k], fit[k] * whole);

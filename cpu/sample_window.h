@@ -14,9 +14,9 @@ class SampleWindow {
   // Rows of samples, from the second above the tile's first one on.
   static constexpr int rows_before = 2, rows = tile_side / 2 + 4;
 
-  // In a row of samples, for each column of pixels: the sample at its left, the one at its right, and their bend.
+  // In a row of samples, for each column of pixels: the sample at its left, the one at its right, their bend and its size.
   struct Row {
-    const float *left, *right, *bend;
+    const float *left, *right, *bend, *size;
   };
 
   SampleWindow(const DepthAwareUpsample&, const TileView&);
@@ -26,11 +26,12 @@ class SampleWindow {
   // Plane 0 is 1/distance, 1 .. 3 are channels of airlight, 4 is the transmittance; then come three channels a light.
   static constexpr int transmittance_plane = 4, first_light_plane = 5;
   Row row(int plane, int sample_row) const {
-    const float* left = values_.data() + (static_cast<std::ptrdiff_t>(plane) * rows + sample_row - first_row) * 3 * tile_side;
-    return {left, left + tile_side, left + 2 * tile_side};
+    const float* left = values_.data() + (static_cast<std::ptrdiff_t>(plane) * rows + sample_row - first_row) * floats_a_row;
+    return {left, left + tile_side, left + 2 * tile_side, left + 3 * tile_side};
   }
 
  private:
+  static constexpr std::ptrdiff_t floats_a_row = 4 * tile_side;
   AlignedFloats values_;
 };
 

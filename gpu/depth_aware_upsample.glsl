@@ -27,10 +27,11 @@ vec4 weights;  // where the pixel is not smooth; their sum is 1
 bool smooth_here;
 bool served;
 
-// One channel of the four samples, and their bends: above, below, left, right.
+// One channel of the four samples, their bends, and the sizes of these: above, below, left, right.
 struct Channel {
   vec4 four;
   vec4 bends;
+  vec4 sizes;
 };
 
 // Three channels of an image around the pixel.
@@ -50,7 +51,11 @@ Channel[3] channels_of(sampler2DArray samples, int layer) {
                         vec4(bend_between(s[4][c], s[5][c], s[6][c], s[7][c], has_left, has_right),
                              bend_between(s[8][c], s[9][c], s[10][c], s[11][c], has_left, has_right),
                              bend_between(s[1][c], s[5][c], s[9][c], s[13][c], has_above, has_below),
-                             bend_between(s[2][c], s[6][c], s[10][c], s[14][c], has_above, has_below)));
+                             bend_between(s[2][c], s[6][c], s[10][c], s[14][c], has_above, has_below)),
+                        vec4(bend_size(s[4][c], s[5][c], s[6][c], s[7][c], has_left, has_right),
+                             bend_size(s[8][c], s[9][c], s[10][c], s[11][c], has_left, has_right),
+                             bend_size(s[1][c], s[5][c], s[9][c], s[13][c], has_above, has_below),
+                             bend_size(s[2][c], s[6][c], s[10][c], s[14][c], has_above, has_below)));
   }
   return result;
 }
@@ -69,8 +74,8 @@ struct Errors {
 
 void add_errors(inout Errors e, Channel channel, vec4 fit) {
   vec4 four = channel.four;
-  vec4 bends = channel.bends;
-  e.flat_error = max(e.flat_error, upsampling_error(bends.x, bends.y, bends.z, bends.w, u, v));
+  vec4 sizes = channel.sizes;
+  e.flat_error = max(e.flat_error, upsampling_error(sizes.x, sizes.y, sizes.z, sizes.w, u, v));
   float high = most_of(four);
   e.most = max(e.most, high);
   e.spread = max(e.spread, high - least_of(four));
@@ -111,10 +116,10 @@ void find_serving(float distance, Channel[3] channels, Channel transmittances) {
   float most = light.most * tolerance;
   float most_through = through.most * tolerance;
   smooth_here = abs(flat_end - inverse) <= inverse * tolerance && light.flat_error <= most && through.flat_error <= most_through;
-  bool within = inverse >= least_of(end) * (1.0 - tolerance) && inverse <= most_of(end) * (1.0 + tolerance) && light.spread <= most &&
-                through.spread <= most_through;
-  bool fits = fitting >= least_fit() && light.spread_fitting <= light.most_fitting * tolerance &&
-              through.spread_fitting <= through.most_fitting * tolerance;
+  bool within = inverse >= least_of(end) * (1.0 - tolerance) && inverse <= most_of(end) * (1.0 + tolerance) &&
+                light.spread + light.flat_error <= most && through.spread + through.flat_error <= most_through;
+  bool fits = fitting >= least_fit() && light.spread_fitting + light.flat_error <= light.most_fitting * tolerance &&
+              through.spread_fitting + through.flat_error <= through.most_fitting * tolerance;
   served = smooth_here || within || fits;
   weights = within ? bilinear : fit * (1.0 / max(fitting, 1e-6));
 }

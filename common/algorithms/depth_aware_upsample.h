@@ -8,13 +8,13 @@ namespace airlight {
 // Airlight and transmittance of every pixel from those of every `stride`-th one (Subsample), after section 5.4 of Zhou et al.
 // 2007, who interpolate bilinearly, and take the neighbour of the most similar depth where depths differ. Here a pixel is served
 // by the four samples around it in the first of these ways whose error, by an estimate, is at most `tolerance` of what is there:
-// * the rays of all five end on one smooth surface, or nowhere: bilinear, and the second difference as well. What that adds is
-//   taken for the error;
+// * the rays of all five end on one smooth surface, or nowhere: bilinear, and the second difference as well, of the side where
+//   it is less. What the mean of both sides' would add is taken for the error;
 // * the pixel's ray ends between the ends of theirs: bilinear. Airlight grows with the length of a ray, so that the spread of the
-//   samples is the error;
-// * bilinear weights times a weight for how near the ends are, of those samples that are near: their spread is the error.
-// Else, at edges of surfaces and of shafts of light, it is not served, and has to be computed: `remaining` tells which. What is
-// narrower than the stride and meets no sample is not seen.
+//   samples is the error, and what second differences would add: they tell of a peak between samples that are the same;
+// * bilinear weights times a weight for how near the ends are, of those samples that are near. Their spread is the error, and
+// that. Else, at edges of surfaces behind which there is more airlight and of shafts of light, and near lamps, it is not served,
+// and has to be computed: `remaining` tells which. What is narrower than the stride and meets no sample is not seen.
 //
 // Where all samples are the same, so is what is between them, in every bit. A pixel depends on samples up to two strides away and
 // on where it stands in the image alone: a part of the image that begins at a multiple of the stride, with so much around it,

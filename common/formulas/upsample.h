@@ -14,6 +14,15 @@ FORMULA real bend_between(real before, real a, real b, real after, mask has_befo
   return select(abs(first) < abs(second), first, second);
 }
 
+// The mean size of both, which tells of a peak of which the lesser one does not: what bends are off by beside a lamp. At a border the
+// other side is not known: there the difference of a and b counts as well.
+FORMULA real bend_size(real before, real a, real b, real after, mask has_before, mask has_after) {
+  real of_a = abs((before - a) - (a - b));
+  real of_b = abs((a - b) - (b - after));
+  real slope = abs(a - b);
+  return 0.5 * (select(has_before, of_a, of_b + slope) + select(has_after, of_b, of_a + slope));
+}
+
 // What a second difference of 1 adds at u to the line between two samples: exact for polynomials of the second degree.
 FORMULA real bend_weight(real u) {
   return 0.5 * u * (u - 1.0);
@@ -26,9 +35,9 @@ FORMULA real upsampled(real a, real b, real c, real d, real above, real below, r
   return max(bent, 0.0);
 }
 
-// The most that bends add to it.
+// What it may be off by, from the bends' sizes: the most that bends add, or more where those of both sides differ.
 FORMULA real upsampling_error(real above, real below, real left, real right, real u, real v) {
-  return fma(abs(bend_weight(u)), max(abs(above), abs(below)), abs(bend_weight(v)) * max(abs(left), abs(right)));
+  return fma(abs(bend_weight(u)), max(above, below), abs(bend_weight(v)) * max(left, right));
 }
 
 // How near the ends of two rays are, given as 1/distance: 1 where they are the same, 0 from a relative difference of `tolerance` on.

@@ -94,9 +94,12 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 46) r[0] = source_in_volume(t, kind, a[0], a[1], a[2]);
   if (formula == 60) {
     r[0] = upsampled(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
-    r[1] = upsampling_error(a[4], a[5], a[6], a[7], a[8], a[9]);
+    r[1] = upsampling_error(abs(a[4]), abs(a[5]), abs(a[6]), abs(a[7]), a[8], a[9]);
   }
-  if (formula == 61) r[0] = bend_between(a[0], a[1], a[2], a[3], a[4] > 0.5, a[5] > 0.5);
+  if (formula == 61) {
+    r[0] = bend_between(a[0], a[1], a[2], a[3], a[4] > 0.5, a[5] > 0.5);
+    r[1] = bend_size(a[0], a[1], a[2], a[3], a[4] > 0.5, a[5] > 0.5);
+  }
   if (formula == 62) r[0] = depth_fit(a[0], a[1], a[2]);
   if (formula == 63) r[0] = weighted_mean(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);

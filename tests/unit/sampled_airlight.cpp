@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/airlight.h"
+#include "common/techniques/technique.h"
 #include "cpu/backend.h"
 #include "gpu/backend.h"
 #include "tests/parity/inputs.h"
@@ -43,10 +44,12 @@ Pictures upsampled(Backend& backend, Extent extent, int stride, Distance&& dista
       through.push_back(airlight(x, y) * 0.25F);
     }
   }
-  backend.upload(a.distance, all, 1);
-  backend.upload(a.sampled_distance, some, 1);
-  backend.upload(a.sampled_airlight, light, 1);
-  backend.upload(a.sampled_transmittance, through, 1);
+  static std::uint64_t key = 0;  // of content that no backend has had yet
+  ++key;
+  backend.upload(a.distance, all, key);
+  backend.upload(a.sampled_distance, some, key);
+  backend.upload(a.sampled_airlight, light, key);
+  backend.upload(a.sampled_transmittance, through, key);
   const Step step{a, ""};
   Stats stats;
   NoProgress progress;
@@ -84,22 +87,27 @@ TEST_P(Upsample, AConstantStaysThatInEveryBit) {
   }
 }
 
-// A wall before a far one: whatever is served has the airlight of its own side, in every bit.
+// A wall before a far one: whatever is served has the airlight of its own side, in every bit where they differ by much. Where
+// they differ by 4 %, most of what is beside the edge is served, to 1 %.
 TEST_P(Upsample, AnEdgeOfDepthDoesNotLeak) {
-  for (int edge = 30; edge < 34; ++edge) {
+  for (const float beyond : {0.104F, 3.0F}) {
+    const int edge = 31;
     const auto near = [&](int x, int y) { return x + y / 3 < edge; };
     const Pictures p = upsampled(
         *backend, extent, stride, [&](int x, int y) { return near(x, y) ? 2.0F : 50.0F; },
-        [&](int x, int y) { return near(x, y) ? 0.1F : 3.0F; });
-    int served_beside = 0;
+        [&](int x, int y) { return near(x, y) ? 0.1F : beyond; });
+    int served_beside = 0, beside = 0;
     for (int y = 0; y < extent.height; ++y) {
       for (int x = 0; x < extent.width; ++x) {
+        const bool at_edge = std::abs(x + y / 3 - edge) < 2;
+        beside += at_edge ? 1 : 0;
         if (p.remaining[at(x, y)] > 0) continue;
-        EXPECT_EQ(p.airlight[3 * at(x, y)], near(x, y) ? 0.1F : 3.0F) << x << ", " << y;
-        served_beside += std::abs(x + y / 3 - edge) < 2 ? 1 : 0;
+        const float own = near(x, y) ? 0.1F : beyond;
+        EXPECT_NEAR(p.airlight[3 * at(x, y)], own, beyond < 1 ? 0.01 * own : 0) << x << ", " << y;
+        served_beside += at_edge ? 1 : 0;
       }
     }
-    EXPECT_GT(served_beside, extent.height) << "edges of depth are mostly served";
+    EXPECT_EQ(2 * served_beside > beside, beyond < 1) << served_beside << " of " << beside;
   }
 }
 
@@ -115,13 +123,16 @@ TEST_P(Upsample, WhatNoSampleSeesIsComputed) {
   }
 }
 
-// An edge of a shaft of light, on one surface: pixels beside it are computed, others are not.
+// An edge of a shaft of light, on one surface: pixels between samples on either side of it are computed, those two strides away
+// are not.
 TEST_P(Upsample, AnEdgeOfLightIsComputed) {
   const Pictures p = upsampled(
       *backend, extent, stride, [](int, int) { return 10.0F; }, [](int x, int) { return x < 38 ? 1.0F : 0.7F; });
   for (int x = 0; x < extent.width; ++x) {
-    const bool beside = x > 37 / stride * stride && x < (38 + stride - 1) / stride * stride;
-    EXPECT_EQ(p.remaining[at(x, 20)] > 0, beside) << x;
+    const int before = 37 / stride * stride, after = (38 + stride - 1) / stride * stride;
+    const bool across = x > before && x < after, away = x <= before - stride || x >= after + stride;
+    if (!across && !away) continue;
+    EXPECT_EQ(p.remaining[at(x, 20)] > 0, across) << x;
   }
 }
 
@@ -144,7 +155,7 @@ RenderSettings settings_of(const std::string& technique, const std::string& reso
                            std::vector<std::string> images = {"beauty", "airlight", "transmittance"}) {
   RenderSettings settings;
   settings.technique = technique;
-  settings.resolution = Extent{120, 90};
+  settings.resolution = Extent{76, 57};
   settings.images = std::move(images);
   settings.knobs = {{"airlight_resolution", resolution}};
   if (technique == "marching" || technique == "opacity-propagation") settings.knobs.emplace_back("steps", "24");
@@ -156,13 +167,18 @@ RenderSettings settings_of(const std::string& technique, const std::string& reso
   return settings;
 }
 
+// Of one technique both: that others' steps are the same on both is for the parity tests.
+std::vector<const char*> backends(const std::string& technique) {
+  return technique == "gaussian-airlight" ? std::vector<const char*>{"cpu", "gl"} : std::vector<const char*>{"cpu"};
+}
+
 class SampledAirlight : public testing::TestWithParam<std::string> {};
 
 // Pixels that no sample serves are those of the full resolution, in every bit, and there are some of both; what is left of the
 // difference is what samples may leave.
 TEST_P(SampledAirlight, LeavesLittleAndSomePixelsAlone) {
   const Scene scene = scene_of(GetParam());
-  for (const char* backend : {"cpu", "gl"}) {
+  for (const char* backend : backends(GetParam())) {
     Renderer renderer({.backend = backend, .gl_context = "osmesa"});
     const Frame full = renderer.render(scene, settings_of(GetParam(), "full"));
     for (const char* resolution : {"half", "quarter"}) {
@@ -192,8 +208,9 @@ TEST_P(SampledAirlight, LeavesLittleAndSomePixelsAlone) {
 // An optical depth is that of each pixel, and asking for more images changes none.
 TEST_P(SampledAirlight, OpticalDepthsAreOfEveryPixel) {
   const Scene scene = scene_of(GetParam());
-  const std::vector<std::string> more{"beauty", "airlight", "transmittance", "optical_depth", "airlight.0"};
-  for (const char* backend : {"cpu", "gl"}) {
+  const std::string light = light_image_name(scene, 0);
+  const std::vector<std::string> more{"beauty", "airlight", "transmittance", "optical_depth", light};
+  for (const char* backend : backends(GetParam())) {
     Renderer one({.backend = backend, .gl_context = "osmesa"}), other({.backend = backend, .gl_context = "osmesa"});
     const Frame full = one.render(scene, settings_of(GetParam(), "full", more));
     const Frame half = one.render(scene, settings_of(GetParam(), "half", more));
@@ -202,7 +219,7 @@ TEST_P(SampledAirlight, OpticalDepthsAreOfEveryPixel) {
     for (const std::string name : {"beauty", "airlight", "transmittance"})
       EXPECT_EQ(half.image(name).values, few.image(name).values) << backend << ", " << name;
     // The lights' shares are served where the whole is.
-    const std::vector<float>&share = half.image("airlight.0").values, &of_full = full.image("airlight.0").values;
+    const std::vector<float>&share = half.image(light).values, &of_full = full.image(light).values;
     double worst = 0, largest = 0;
     for (std::size_t i = 0; i < share.size(); ++i) {
       worst = std::max(worst, static_cast<double>(std::fabs(share[i] - of_full[i])));
@@ -236,7 +253,7 @@ TEST(SampledAirlightPlan, SaysWhatItLeaves) {
   };
   half.resolution = full.resolution = Extent{40, 4};
   left("the image is too small");
-  half.resolution = full.resolution = Extent{120, 90};
+  half.resolution = full.resolution = Extent{76, 57};
   const std::vector<Gaussian> gaussians = scene.medium.gaussians;
   scene.medium.gaussians.clear();
   left("closed forms are as fast");

@@ -68,8 +68,8 @@ enum class Formula : int {
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
   link_shares = 45,         // depth, all -> lost, given, kept
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
-  upsampled = 60,           // four samples, four bends, u, v -> value, the most that bends add
-  bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0)
+  upsampled = 60,           // four samples, four bends, u, v -> value, what bends of that size add at most
+  bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0) -> bend, size
   depth_fit = 62,           // inverse distance, of the sample, tolerance
   weighted_mean = 63,       // four samples, four weights
 };

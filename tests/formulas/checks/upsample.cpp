@@ -43,7 +43,8 @@ Measured measure_upsampled(const Run& run) {
   return m;
 }
 
-// The most that bends add: of bends that are the same on both sides what is between bilinear and bent, else no less.
+// What bends add at most, told their sizes: of bends that are the same on both sides what is between bilinear and bent, else
+// more.
 Measured measure_error(const Run& run) {
   Random random(stream + 1);
   Columns in;
@@ -69,7 +70,8 @@ Measured measure_error(const Run& run) {
   return m;
 }
 
-// Of the second differences at a and b the one of less size; that of the side which has samples.
+// Of the second differences at a and b the one of less size, and the mean size; that of the side which has samples, and the
+// slope.
 Measured measure_bend(const Run& run) {
   Random random(stream + 2);
   Columns in;
@@ -82,7 +84,11 @@ Measured measure_bend(const Run& run) {
   for (std::size_t i = 0; i < in[0].size(); ++i) {
     const double at_a = in[0][i] - 2 * in[1][i] + in[2][i], at_b = in[1][i] - 2 * in[2][i] + in[3][i];
     const double truth = in[4][i] == 0 ? at_b : in[5][i] == 0 ? at_a : std::fabs(at_a) < std::fabs(at_b) ? at_a : at_b;
-    m.add(std::fabs(found[0][i] - truth), [&] {
+    const double slope = std::fabs(in[1][i] - in[2][i]);
+    const double size = in[4][i] == 0   ? std::fabs(at_b) + slope / 2
+                        : in[5][i] == 0 ? std::fabs(at_a) + slope / 2
+                                        : (std::fabs(at_a) + std::fabs(at_b)) / 2;
+    m.add(std::max(std::fabs(found[0][i] - truth), std::fabs(found[1][i] - size)), [&] {
       return place({{"before", in[0][i]}, {"a", in[1][i]}, {"b", in[2][i]}, {"after", in[3][i]}});
     });
   }
