@@ -67,11 +67,11 @@ std::span<const NamedCase> frame_cases() {
       {"frame/marched_shadows", marched_shadows},
       {"frame/half_airlight",
        [](Extent e) {
-         return sampled(e, gaussian_airlight(), "half", {{"samples", "3"}});
+         return sampled(e, gaussian_airlight(), "half", {{"samples", "2"}});
        }},
       {"frame/quarter_of_a_march",
        [](Extent e) {
-         return sampled(e, marching(), "quarter", {{"steps", "6"}});
+         return sampled(e, marching(), "quarter", {{"steps", "6"}, {"shadows", "off"}});
        }},
       {"frame/propagated", [](Extent e) { return propagated(e, "exact", "rays"); }},
       {"frame/propagated_in_cells", [](Extent e) { return propagated(e, "volume", "upwind"); }}};

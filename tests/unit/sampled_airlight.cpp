@@ -273,7 +273,8 @@ TEST(SampledAirlightPlan, WorksWithSupersampling) {
     RenderSettings settings = settings_of("gaussian-airlight", resolution, {"airlight"});
     settings.supersample = 2;
     double sum = 0;
-    for (const float v : renderer.render(scene, settings).image("airlight").values) sum += static_cast<double>(v);
+    const Frame frame = renderer.render(scene, settings);
+    for (const float v : frame.image("airlight").values) sum += static_cast<double>(v);
     return sum;
   };
   EXPECT_NEAR(mean("quarter") / mean("full"), 1, 2e-3);

@@ -125,7 +125,7 @@ Measured measure_mean(const Run& run) {
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       weight[k] = (static_cast<unsigned>(i) >> k & 1U) != 0 || k + 1 == 4 ? std::floor(random.number(1, 64)) : 0;
-      sample[k] = !(weight[k] > 0) ? 1e25 : i % 2 == 0 ? same : random.number(0, 8);
+      sample[k] = !(weight[k] > 0) ? 1e25 : i / 16 % 2 == 0 ? same : random.number(0, 8);
       sum += weight[k];
     }
     add_call(in, sample[0], sample[1], sample[2], sample[3], weight[0] / sum, weight[1] / sum, weight[2] / sum, weight[3] / sum);
