@@ -49,7 +49,9 @@ const Technique& chosen_technique(const Scene& scene, const RenderSettings& sett
     if (!why) return t;
     reasons += "; " + std::string(t.name) + ": " + *why;
   }
-  throw InputError("no real-time technique of this version renders this scene (reference does)" + reasons);
+  const bool reference = !technique("reference").refuses(scene);
+  throw InputError(std::string("no real-time technique of this version renders this scene") +
+                   (reference ? " (reference does)" : "") + reasons);
 }
 
 FrameRequest request_for(const Technique& technique, const Scene& scene, const RenderSettings& settings) {

@@ -98,7 +98,8 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     const GaussianDensity& g = a.gaussians[k];
     const float inverse = terms[k].inverse;
     Real foot, h;
-    perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
+    const Real3 way = a.noise.amplitude > 0 ? bent_toward(a.noise, d, g) : d;
+    perpendicular(way.x, way.y, way.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
     store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
     store(gaussian_erf(erf, foot * -inverse), floats + start_at);

@@ -205,6 +205,14 @@ struct RadianceBound {
   }
 };
 
+// The direction in which a ray crosses a Gaussian.
+HWY_INLINE Real3 bent_toward(const RayNoise& noise, const Real3& d, const GaussianDensity& g) {
+  Real3 way;
+  bent_ray(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, g.radius, noise.amplitude, 1 / noise.scale, noise.offset.x,
+           noise.offset.y, noise.offset.z, way.x, way.y, way.z);
+  return way;
+}
+
 }  // namespace airlight::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -151,7 +151,11 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   defines.push_back("AROUND_LIGHT " + std::to_string(GaussianPanels::around_light) + "u");
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
+  if (a.noise.amplitude > 0) defines.push_back("WITH_NOISE");
   Program& program = r.compute("gpu/gaussian_airlight.glsl", defines);
+  program.set("noise_amplitude", a.noise.amplitude);
+  program.set("noise_inverse_scale", 1 / a.noise.scale);
+  program.set("noise_offset", a.noise.offset);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);

@@ -56,13 +56,16 @@ float front = 0.0;
 float most;
 vec3 sum = vec3(0.0);
 
+#include "gpu/bent_rays.glsl"
+
 // Optical depth of a Gaussian up to t.
 float depth_to(int g, float t) {
   vec3 c = center_radius(g).xyz;
   float radius = center_radius(g).w;
   float foot;
   float h;
-  perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+  vec3 way = way_across(c, radius);
+  perpendicular(way.x, way.y, way.z, c.x, c.y, c.z, 0.0, foot, h);
   if (h >= emission_reach(g).w) return 0.0;
   return gaussian_depth(GAUSSIAN_ERF, 1.0 / radius, h, -foot, t - foot) * gaussian_whole(albedo_extinction_of(g).w, radius);
 }
@@ -83,7 +86,8 @@ Local local_at(ivec2 meets, float t) {
     float inverse = 1.0 / radius;
     float foot;
     float h;
-    perpendicular(d.x, d.y, d.z, c.x, c.y, c.z, 0.0, foot, h);
+    vec3 way = way_across(c, radius);
+    perpendicular(way.x, way.y, way.z, c.x, c.y, c.z, 0.0, foot, h);
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_lateral(inverse, h);

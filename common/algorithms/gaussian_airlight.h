@@ -28,6 +28,7 @@ struct GaussianAirlight {
   glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
   int samples = 4;              // 1..most_samples
   Erf erf = Erf::accurate;
+  RayNoise noise = {};  // with any, each Gaussian's reach is widened by what its rays may be bent by (common/plan/ray_noise.h)
 
   static constexpr int most_samples = 16;
 
@@ -54,6 +55,7 @@ struct GaussianAirlight {
     v(knob("emission", "W/m^3/sr"), s.emission);
     v(knob("samples"), s.samples);
     v(knob("erf"), s.erf);
+    v(knob("noise"), s.noise);
     v(out("airlight", "W/m^2/sr"), s.airlight);
     v(out("per_light", "W/m^2/sr"), s.per_light);
     v(out("transmittance"), s.transmittance);

@@ -27,6 +27,13 @@ struct GridDensity {
   explicit operator bool() const { return size.x > 0; }
 };
 
+// Noise by which view rays are bent where they cross Gaussians (common/formulas/noise.h). Amplitude 0: none.
+struct RayNoise {
+  float amplitude = 0;        // 0..1, of a Gaussian's radius
+  float scale = 1;            // [m] of a cell of the noise
+  glm::vec3 offset{0, 0, 0};  // [cells] where in it the camera stands
+};
+
 // By which error function the optical depths of Gaussians are taken: erf_, or the polynomial that Zhou et al. 2007 print. The
 // numbers are those of gaussian_erf() in common/formulas/gaussian.h.
 enum class Erf : int { accurate = 0, fast = 1 };

@@ -12,3 +12,4 @@
 #include "common/formulas/depth_volume.h"
 #include "common/formulas/network.h"
 #include "common/formulas/upsample.h"
+#include "common/formulas/noise.h"

@@ -43,6 +43,7 @@ class Hash {
   void add(const GaussianDensity& g) {
     add(g.center), add(g.radius), add(g.extinction), add(g.reach), add(g.albedo), add(g.emission);
   }
+  void add(const RayNoise& n) { add(n.amplitude), add(n.scale), add(n.offset); }
   void add(const GridDensity& g) {
     for (const glm::vec4& row : g.cells) add(row);
     add(g.size), add(g.albedo);

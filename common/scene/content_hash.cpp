@@ -46,8 +46,10 @@ class Content {
     add(center), add(radius), add(extinction), add(albedo), add(emission);
   }
   void add(const Medium& medium) {
-    const auto& [phase, albedo, ambient, emission, extinction, gaussians, grid] = medium;
+    const auto& [phase, albedo, ambient, emission, extinction, gaussians, grid, noise] = medium;
     add(phase), add(albedo), add(ambient), add(emission), add(extinction), add(gaussians);
+    const auto& [amplitude, noise_scale, offset] = noise;
+    add(amplitude), add(noise_scale), add(offset);
     if (!grid) return;
     const auto& [voxels, transform, scale, grid_albedo] = *grid;
     add(voxels->size), add(voxels->values), add(transform), add(scale), add(grid_albedo);

@@ -13,6 +13,8 @@ inline constexpr Range component{-1e9, 1e9, ""};  // of a direction or a matrix
 inline constexpr Range length{0, farthest, "m", true};
 inline constexpr Range radius{1e-6, 1e6, "m"};
 inline constexpr Range extinction{0, 1e6, "1/m"};
+inline constexpr Range noise_scale{1e-6, 1e6, "m"};
+inline constexpr Range noise_offset{-1e9, 1e9, "cells"};
 inline constexpr Range fraction{0, 1, ""};
 inline constexpr Range radiance{0, 1e12, "W/m^2/sr"};
 inline constexpr Range emission{0, 1e12, "W/m^3/sr"};

@@ -58,8 +58,8 @@ void check_emission(const Node& medium, const Scene& scene) {
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::string& directory, Progress& progress) {
   static constexpr auto known =
-      keys("airlight", "camera", "sky_distance", "medium", "lights", "surfaces", "background", "technique");
-  static constexpr std::array<LaterKey, 2> later{{{"noise", "noise is"}, {"animation", "animations are"}}};
+      keys("airlight", "camera", "sky_distance", "medium", "lights", "surfaces", "background", "noise", "technique");
+  static constexpr std::array<LaterKey, 1> later{{{"animation", "animations are"}}};
   const json::Value root = json::parse(text, name);
   const Object o(Node(root, name, ""), known, later);
   const Node version = o.require("airlight");
@@ -74,6 +74,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     parse_medium(*medium, directory, loading, progress);
     check_emission(*medium, scene);
   }
+  if (const auto noise = o.find("noise")) scene.medium.noise = parse_noise(*noise);
   if (const auto lights = o.find("lights")) scene.lights = parse_lights(*lights);
   if (const auto background = o.find("background")) scene.background = background->vec3(limits::radiance);
   if (const auto technique = o.find("technique")) parse_technique(*technique, scene);

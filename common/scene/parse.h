@@ -34,6 +34,8 @@ struct Loading {
 // Into scene.medium; `directory` is where relative paths start.
 void parse_medium(const Node&, const std::string& directory, Loading&, Progress&);
 
+Noise parse_noise(const Node&);
+
 // A file that two surfaces name is read once.
 void parse_surfaces(const Node&, const std::string& directory, Loading&, Progress&);
 

@@ -106,6 +106,16 @@ GridMedium parse_grid(const Node& node, const std::string& directory, Loading& l
 
 }  // namespace
 
+Noise parse_noise(const Node& node) {
+  static constexpr auto known = keys("scale", "amplitude", "offset");
+  const Object o(node, known);
+  Noise noise;
+  noise.amplitude = o.require("amplitude").number(limits::fraction);
+  if (const auto scale = o.find("scale")) noise.scale = scale->number(limits::noise_scale);
+  if (const auto offset = o.find("offset")) noise.offset = offset->vec3(limits::noise_offset);
+  return noise;
+}
+
 void parse_medium(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
   static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians", "grid");
   static constexpr std::array<LaterKey, 2> later{

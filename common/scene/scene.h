@@ -48,6 +48,13 @@ struct GridMedium {
   glm::dvec3 albedo{1, 1, 1};
 };
 
+// Bends view rays where they cross Gaussians (Zhou et al. 2007, section 5.5): a look, no physics.
+struct Noise {
+  double amplitude = 0;        // 0..1: by how much of a Gaussian's radius; 0: none
+  double scale = 1;            // [m] > 0 of a cell
+  glm::dvec3 offset{0, 0, 0};  // [cells], to animate it; it repeats after 256
+};
+
 struct Medium {
   Phase phase;
   glm::dvec3 albedo{1, 1, 1};    // each 0..1
@@ -56,6 +63,7 @@ struct Medium {
   double extinction = 0;         // [1/m] of the homogeneous part
   std::vector<Gaussian> gaussians;
   std::optional<GridMedium> grid;
+  Noise noise;
 
   bool empty() const { return extinction == 0 && gaussians.empty() && !grid; }
 };

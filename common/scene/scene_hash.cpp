@@ -38,6 +38,10 @@ void add(Canonical& c, const Medium& m) {
     c.add("albedo", g.albedo);
     c.add("emission", g.emission);
   }
+  if (!(m.noise.amplitude > 0)) return;
+  c.add("noise", m.noise.amplitude);
+  c.add("scale", m.noise.scale);
+  c.add("offset", m.noise.offset);
 }
 
 }  // namespace

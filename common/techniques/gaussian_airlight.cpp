@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/plan/frame.h"
+#include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 
 namespace airlight {
@@ -24,6 +25,12 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   // Held where no Gaussian is, so that it makes nothing stale.
   const Erf erf = !gaussians.empty() && request.knobs.choice("erf") == "fast" ? Erf::fast : Erf::accurate;
 
+  // Section 5.5: rays are bent where they cross Gaussians; lights' are not.
+  const RayNoise noise = ray_noise(scene);
+  std::vector<GaussianDensity> met = gaussians;
+  widen(met, noise);
+  if (medium.noise.amplitude > 0 && !(noise.amplitude > 0)) frame.plan.skips.push_back({"noise", "no Gaussians"});
+
   // Section 3: the homogeneous term has a closed form where nothing shades it.
   const bool lamps = std::any_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return !l.directional; });
   Buffer tables;
@@ -34,7 +41,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                                .tables = tables,
                                                .volumes = volumes,
                                                .lights = frame.lights,
-                                               .gaussians = gaussians,
+                                               .gaussians = met,
                                                .view = frame.view,
                                                .phase = medium.phase,
                                                .extinction = frame.extinction,
@@ -44,6 +51,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                                .emission = medium.emission,
                                                .samples = static_cast<int>(request.knobs.number("samples")),
                                                .erf = erf,
+                                               .noise = noise,
                                                .airlight = frame.airlight,
                                                .per_light = frame.per_light,
                                                .transmittance = frame.transmittance,
@@ -71,7 +79,8 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   double error = 1e-4;
   if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
   if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
-  if (knobs.choice("airlight_resolution") != "full") error = HUGE_VAL;  // what samples do not tell is not modelled
+  // What samples do not tell is not modelled, and of noise there is no truth.
+  if (knobs.choice("airlight_resolution") != "full" || ray_noise(scene).amplitude > 0) error = HUGE_VAL;
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
   const double pixels = static_cast<double>(extent.width) * extent.height;

@@ -7,6 +7,7 @@
 
 #include "common/plan/frame.h"
 #include "common/plan/network.h"
+#include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
@@ -17,7 +18,7 @@ namespace {
 std::optional<std::string> refuses(const Scene& scene) {
   if (scene.medium.gaussians.empty() && !scene.medium.grid)
     return "its particles stand for Gaussians and grids, the scene has neither";
-  return std::nullopt;
+  return refuses_noise(scene);
 }
 
 int window_of(int particles) {

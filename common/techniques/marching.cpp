@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "common/plan/frame.h"
+#include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
@@ -183,7 +184,7 @@ Technique marching() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob()};
-  t.refuses = [](const Scene&) { return std::optional<std::string>(); };
+  t.refuses = refuses_noise;
   t.plan = plan;
   t.estimate = estimate;
   return t;

@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/plan/depth_volumes.h"
 #include "common/plan/frame.h"
+#include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
 
@@ -234,7 +235,7 @@ Technique opacity_propagation() {
       shadows_knob(),
       airlight_resolution_knob(),
       indirect_knob()};
-  t.refuses = [](const Scene&) { return std::optional<std::string>(); };
+  t.refuses = refuses_noise;
   t.plan = plan;
   t.estimate = estimate;
   return t;

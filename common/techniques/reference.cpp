@@ -1,6 +1,7 @@
 #include "common/techniques/reference.h"
 
 #include "common/plan/frame.h"
+#include "common/plan/ray_noise.h"
 
 namespace airlight {
 
@@ -25,7 +26,7 @@ Technique reference_technique() {
        .sweep = {}},
       indirect_knob(),
   };
-  t.refuses = [](const Scene&) { return std::optional<std::string>(); };
+  t.refuses = refuses_noise;
   return t;
 }
 

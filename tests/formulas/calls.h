@@ -102,5 +102,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   }
   if (formula == 62) r[0] = depth_fit(a[0], a[1], a[2]);
   if (formula == 63) r[0] = weighted_mean(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]);
+  if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
+  if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

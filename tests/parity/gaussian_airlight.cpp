@@ -1,4 +1,5 @@
 #include "common/plan/airlight_tables.h"
+#include "common/plan/ray_noise.h"
 #include "tests/parity/inputs.h"
 #include "tests/parity/medium.h"
 
@@ -18,6 +19,7 @@ struct Parts {
   bool dark = false;  // no light
   bool casters = false;
   Erf erf = Erf::accurate;
+  float noise = 0;
 };  // namespace
 
 Case scatter(Extent extent, const Parts& parts) {
@@ -25,7 +27,9 @@ Case scatter(Extent extent, const Parts& parts) {
   const View view = test_view(extent);
   const TestSurfaces surfaces = sphere_on_plane(view, 1);
   add_to(c, surfaces);
-  const std::vector<GaussianDensity> gaussians = test_gaussians(parts.gaussians);
+  std::vector<GaussianDensity> gaussians = test_gaussians(parts.gaussians);
+  const RayNoise noise{.amplitude = parts.noise, .scale = 0.4F, .offset = {3, 250.5F, 77}};
+  widen(gaussians, noise);
   std::vector<Light> lights = test_lights();
   lights.resize(parts.dark ? 0 : parts.lights);
   if (parts.lamp_within) lights.push_back({.vector = gaussians.at(0).center, .power = {3, 4, 5}});
@@ -55,6 +59,7 @@ Case scatter(Extent extent, const Parts& parts) {
                                .emission = {0.003F, 0.002F, 0.001F},
                                .samples = parts.samples,
                                .erf = parts.erf,
+                               .noise = noise,
                                .airlight = total,
                                .per_light = layers ? each : Image{},
                                .transmittance = through,
@@ -69,6 +74,8 @@ Case scatter(Extent extent, const Parts& parts) {
 const NamedCase cases[] = {
     {"gaussian_airlight/seven", [](Extent e) { return scatter(e, {.parts = false}); }},
     {"gaussian_airlight/fast_erf", [](Extent e) { return scatter(e, {.parts = false, .erf = Erf::fast}); }},
+    {"gaussian_airlight/noise",
+     [](Extent e) { return scatter(e, {.extinction = 0.03F, .gaussians = 5, .samples = 2, .sky_distance = 1e30F, .noise = 0.5F}); }},
     {"gaussian_airlight/in_fog", [](Extent e) { return scatter(e, {.extinction = 0.06F, .sky_distance = 1e30F}); }},
     {"gaussian_airlight/fog_alone",
      [](Extent e) { return scatter(e, {.extinction = 0.1F, .gaussians = 0, .sky_distance = 1e30F}); }},

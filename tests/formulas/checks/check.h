@@ -72,6 +72,8 @@ enum class Formula : int {
   bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0) -> bend, size
   depth_fit = 62,           // inverse distance, of the sample, tolerance
   weighted_mean = 63,       // four samples, four weights
+  gradient_noise = 64,      // place -> three noises
+  bent_ray = 65,            // d, centre, radius, amplitude, inverse scale, offset -> direction
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -125,6 +127,7 @@ void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
 void add_upsample_checks(std::vector<Check>&);
+void add_noise_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector
