@@ -140,7 +140,8 @@ inline constexpr Tolerance tolerances[] = {
     {"weighted_mean_double", 2e-7, "beside the largest sample: weights are floats, whose sum is 1 to rounding"},
     {"gradient_noise", 1e-6, "absolute, of up to 1.05: eight products of rounded weights, seven steps between them"},
     {"noise_smooth", 1e-3,
-     "a second difference over a step of 1/512, at faces of cells, where the second derivative is 0: of third order, and roundings"},
+     "a second difference over a step of 1/512, at faces of cells, where the second derivative is 0: of third order, and "
+     "roundings"},
     {"bent_ray", 1e-4,
      "length, of a unit vector: noise is taken at up to 456 cells, where a float tells 3e-5 of one, and its slope is below 2.5"},
     {"airlight_allowed", 1, "a multiple of airlight_value of the value and airlight_end of the end value"},

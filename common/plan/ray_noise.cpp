@@ -27,7 +27,8 @@ void widen(std::vector<GaussianDensity>& gaussians, const RayNoise& noise) {
   if (!(noise.amplitude > 0)) return;
   for (GaussianDensity& g : gaussians) {
     const double distance = glm::length(glm::dvec3(g.center)), radius = static_cast<double>(g.radius);
-    const double most = std::sqrt(3.0) * f64::noise_bound() * static_cast<double>(noise.amplitude) * radius / std::max(distance, radius);
+    const double most =
+        std::sqrt(3.0) * f64::noise_bound() * static_cast<double>(noise.amplitude) * radius / std::max(distance, radius);
     // |a / |a| - d| <= 2 |a - d| / (|a| + 1) for a unit vector d (Dunkl and Williams 1964), and 2 at most.
     const double apart = most < 1 ? 2 * most / (2 - most) : 2;
     const double reach = static_cast<double>(g.reach);

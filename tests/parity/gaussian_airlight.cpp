@@ -75,7 +75,9 @@ const NamedCase cases[] = {
     {"gaussian_airlight/seven", [](Extent e) { return scatter(e, {.parts = false}); }},
     {"gaussian_airlight/fast_erf", [](Extent e) { return scatter(e, {.parts = false, .erf = Erf::fast}); }},
     {"gaussian_airlight/noise",
-     [](Extent e) { return scatter(e, {.extinction = 0.03F, .gaussians = 5, .samples = 2, .sky_distance = 1e30F, .noise = 0.5F}); }},
+     [](Extent e) {
+       return scatter(e, {.extinction = 0.03F, .gaussians = 5, .samples = 2, .sky_distance = 1e30F, .noise = 0.5F});
+     }},
     {"gaussian_airlight/in_fog", [](Extent e) { return scatter(e, {.extinction = 0.06F, .sky_distance = 1e30F}); }},
     {"gaussian_airlight/fog_alone",
      [](Extent e) { return scatter(e, {.extinction = 0.1F, .gaussians = 0, .sky_distance = 1e30F}); }},

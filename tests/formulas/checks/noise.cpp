@@ -66,7 +66,8 @@ double noise(const glm::dvec3& p, int component) {
   });
 }
 
-// Places of which floats hold the offset in the cell as well, also beyond a period and below 0; at some a lattice place, where it is 0.
+// Places of which floats hold the offset in the cell as well, also beyond a period and below 0; at some a lattice place, where it
+// is 0.
 Columns places() {
   Random random(stream);
   Columns in;
@@ -92,8 +93,8 @@ Measured measure_noise(const Run& run) {
   return m;
 }
 
-// The same after a period along any axis, in every bit; no more than its bound, which no choice of gradients passes; and the three of one
-// place are not alike.
+// The same after a period along any axis, in every bit; no more than its bound, which no choice of gradients passes; and the
+// three of one place are not alike.
 Measured measure_tiles(const Run& run) {
   const Columns in = places();
   Columns moved = in;
@@ -128,7 +129,8 @@ Measured measure_tiles(const Run& run) {
   return m;
 }
 
-// Across faces of cells it changes no faster than within, and its slope has no step: second differences stay small. Beside the step.
+// Across faces of cells it changes no faster than within, and its slope has no step: second differences stay small. Beside the
+// step.
 Measured measure_smooth(const Run& run) {
   Random random(stream + 2);
   constexpr double step = 1.0 / 512;
@@ -163,8 +165,8 @@ Measured measure_bent(const Run& run) {
   Columns in;
   for (int i = 0; i < 4000; ++i) {
     const glm::dvec3 d = random.direction(), c = random.direction() * random.magnitude(1e-2, 50);
-    add_call(in, d.x, d.y, d.z, c.x, c.y, c.z, random.magnitude(0.05, 5), i % 9 == 0 ? 0 : random.number(0, 1), random.magnitude(0.2, 4),
-             random.number(0, 256), random.number(0, 256), random.number(0, 256));
+    add_call(in, d.x, d.y, d.z, c.x, c.y, c.z, random.magnitude(0.05, 5), i % 9 == 0 ? 0 : random.number(0, 1),
+             random.magnitude(0.2, 4), random.number(0, 256), random.number(0, 256), random.number(0, 256));
   }
   const Columns found = run({Formula::bent_ray, in});
   Measured m;
