@@ -52,7 +52,7 @@ struct Scattering {
   HWY_INLINE void begin(int first, Real length);
   HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
   HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
-  HWY_INLINE Real shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const;
+  HWY_INLINE Real shading(const GaussianPanels::Shade& s, std::size_t k, const Real3& place) const;
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
@@ -150,12 +150,13 @@ HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const
   return here;
 }
 
-// Optical depth of Gaussians between a place and a light.
-HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const {
+// Optical depth of Gaussians between a place and light k.
+HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, std::size_t k, const Real3& place) const {
   Real depth = 0.0;
-  if (s.shading.begin == s.shading.end) return depth;
+  if (!s.shaded) return depth;
+  if (!a.depths.empty()) return depth_to_light(a.depth_volumes[k], view.floats(a.depths[k]), place);
   Real length;
-  const Real3 way = toward_light(light, place, length);
+  const Real3 way = toward_light(a.lights[k], place, length);
   for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
     const std::uint32_t word = panels.indices()[n], index = word & ~GaussianPanels::around_light;
     const Real3 e = to_center(a.gaussians[index], place);
@@ -186,7 +187,7 @@ HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::siz
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const Light& light = a.lights[k];
-  const Real more = here.depth + shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+  const Real more = here.depth + shading(shade, k, along({0.0, 0.0, 0.0}, d, t));
   Real density;
   if (light.directional) {
     density = directional_density(kind, g, a.extinction, -dot(real3(light.vector), d), t, more);

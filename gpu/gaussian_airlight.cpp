@@ -87,7 +87,7 @@ class PanelLists {
     }
     for (const GaussianPanels::Shade& s : p.shades()) {
       const glm::ivec2 shading = list(p, s.shading, [](std::uint32_t word) { return std::bit_cast<int>(word); });
-      shades_.emplace_back(shading, static_cast<int>(s.levels), 0);
+      shades_.emplace_back(shading, static_cast<int>(s.levels), s.shaded ? 1 : 0);
     }
     const auto first_met = static_cast<int>(indices_.size());
     for (const std::uint32_t g : p.met()) indices_.push_back(static_cast<int>(g));
@@ -142,6 +142,8 @@ struct Knobs {
 
 void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, {}, {}, 1, LightDepth::analytic, a.erf);
+  const int depths_at = bind_depths(r, a.tables, {a.depths, a.depth_volumes}).depths;
+  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
@@ -152,12 +154,13 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/gaussian_airlight.glsl", defines);
+  program.set("depth_volumes_at", depths_at);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);
   r.write(2, a.transmittance);
   r.write(3, a.optical_depth);
-  if (a.tables) r.storage(tables_binding, a.tables);
+  if (a.tables && depths_at < 0) r.storage(tables_binding, a.tables);
   r.view(a.view);
   PanelLists lists(a, shadowed ? LoopBudget::most / 2 : LoopBudget::most);
   lists.bind(r);

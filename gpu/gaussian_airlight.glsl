@@ -23,8 +23,8 @@ layout(std140, binding = 2) uniform Knobs {
 };
 
 // The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
-// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and
-// the levels; Gaussians.
+// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends,
+// the levels, and whether anything may shade it; Gaussians.
 layout(std430, binding = 0) readonly buffer SquareBlock { ivec4 squares[]; };
 layout(std430, binding = 1) readonly buffer PanelBlock { ivec4 panels[]; };
 layout(std430, binding = 2) readonly buffer ShadeBlock { ivec4 shades[]; };
@@ -96,8 +96,11 @@ Local local_at(ivec2 meets, float t) {
   return here;
 }
 
-// Optical depth of Gaussians between a place and a light.
-float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
+// Optical depth of Gaussians between a place and light k.
+float shading(ivec4 shade, int k, vec3 vector, bool directional, vec3 place) {
+#ifdef WITH_DEPTH_VOLUMES
+  return shade.w == 0 ? 0.0 : depth_to_light(k, place);
+#else
   float depth = 0.0;
   float length;
   vec3 way = toward_light(vector, directional, place, length);
@@ -116,6 +119,7 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
     depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }
   return depth;
+#endif
 }
 
 void add(int k, vec3 scattered) {
@@ -126,7 +130,7 @@ void add(int k, vec3 scattered) {
 #endif
 }
 
-bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.x == shade.y; }
+bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.w == 0; }
 
 // By the nodes: of the lights, and of what glows.
 void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
@@ -142,7 +146,7 @@ void take_samples(ivec2 meets, int first_shade, float from, float to, bool light
       vec4 vector_radius = light_values[2 * k];
       vec4 power_directional = light_values[2 * k + 1];
       bool directional = power_directional.w != 0.0;
-      float more = here.depth + shading(shade, vector_radius.xyz, directional, d * t);
+      float more = here.depth + shading(shade, k, vector_radius.xyz, directional, d * t);
       float density;
       if (directional) {
         density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);

@@ -54,6 +54,49 @@ struct Sphere {
   double radius;
 };
 
+// All that Gaussians reach.
+struct Reach {
+  glm::dvec3 least{1e300}, most{-1e300};
+  double smooth = 1e300;  // [m] over which each is smooth, or too faint to matter
+
+  explicit Reach(const std::vector<GaussianDensity>& gaussians) {
+    for (const GaussianDensity& g : gaussians) {
+      const glm::dvec3 center(g.center), reach(static_cast<double>(g.reach));
+      least = glm::min(least, center - reach);
+      most = glm::max(most, center + reach);
+      smooth = std::min(smooth, smooth_over(g));
+    }
+  }
+  // What takes little may be rough.
+  static double smooth_over(const GaussianDensity& g) {
+    return panel_radii * (static_cast<double>(g.radius) + 0.03 / static_cast<double>(g.extinction));
+  }
+  // Whether some of it may stand between a light and a place of the sphere: it would stand within the sphere's radius of the way
+  // to its centre.
+  bool shades(const Light& light, const Sphere& s) const {
+    const glm::dvec3 way = light.directional ? glm::dvec3(light.vector) : glm::dvec3(light.vector) - s.center;
+    double from = 0, to = light.directional ? 1e300 : 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = least[axis] - s.radius - s.center[axis], high = most[axis] + s.radius - s.center[axis];
+      if (way[axis] == 0) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double a = low / way[axis], b = high / way[axis];
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    return from <= to;
+  }
+  // The longest panel over which their shadow is smooth: it spreads behind them as the light's rays do.
+  double smooth_in(const Light& light, const Sphere& s) const {
+    if (light.directional) return smooth;
+    const glm::dvec3 position(light.vector);
+    const double nearest = glm::length(s.center - position) - s.radius;
+    return smooth * std::max(1.0, nearest / glm::length(glm::max(position - least, most - position)));
+  }
+};
+
 }  // namespace
 
 GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()) {
@@ -132,7 +175,8 @@ struct GaussianPanels::Build {
   std::vector<Met> met;  // in the order of out.met_
   double sharp;
   bool everywhere;  // something is to be seen also where no Gaussian is
-  // Lists of the recursion's branch: of Gaussians, and where the list of each light lies.
+  Reach reach;
+  // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
   std::vector<std::uint32_t> stack;
   std::vector<Range> ranges;
   Range last_active{};
@@ -142,7 +186,8 @@ struct GaussianPanels::Build {
         out(panels),
         cone(a.view, x, y),
         sharp(sharpness(a.phase)),
-        everywhere(a.extinction > 0 || a.emission != glm::vec3(0)) {
+        everywhere(a.extinction > 0 || a.emission != glm::vec3(0)),
+        reach(a.gaussians) {
     for (std::size_t i = 0; i < a.gaussians.size(); ++i) meet(a.gaussians[i], static_cast<std::uint32_t>(i));
   }
 
@@ -203,14 +248,12 @@ struct GaussianPanels::Build {
     }
     // The longest panel over which the shadow of a Gaussian is smooth.
     double smooth(const GaussianDensity& g, const Light& light) const {
-      const double r = static_cast<double>(g.radius);
-      const double faint = 1 + 0.03 / (static_cast<double>(g.extinction) * r);  // what takes little may be rough
       double grown = 1;
       if (!directional && length > radius) {
         const double distance = glm::length(glm::dvec3(g.center - light.vector));
-        grown = std::max(1.0, (length - radius) / std::max(distance, r));
+        grown = std::max(1.0, (length - radius) / std::max(distance, static_cast<double>(g.radius)));
       }
-      return panel_radii * r * grown * faint;
+      return Reach::smooth_over(g) * grown;
     }
   };
 
@@ -230,6 +273,10 @@ struct GaussianPanels::Build {
   void filter_shades(std::size_t from, const Sphere& s) {
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       const Range before = ranges[from + k];
+      if (!a.depths.empty()) {
+        ranges.push_back({0, before.end > 0 && reach.shades(a.lights[k], s) ? 1U : 0U});
+        continue;
+      }
       const Ways ways(a.lights[k], s);
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = before.begin; i < before.end; ++i) {
@@ -238,6 +285,17 @@ struct GaussianPanels::Build {
       }
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
     }
+  }
+
+  // The longest panel over which all that shades the sphere from a light is smooth.
+  double smooth_shadow(std::size_t light, Range shading, const Sphere& s) const {
+    double longest = 1e300;
+    if (shading.begin == shading.end) return longest;
+    if (!a.depths.empty()) return reach.smooth_in(a.lights[light], s);
+    const Ways ways(a.lights[light], s);
+    for (std::uint32_t i = shading.begin; i < shading.end; ++i)
+      longest = std::min(longest, ways.smooth(a.gaussians[stack[i]], a.lights[light]));
+    return longest;
   }
 
   // Panels from begin to end. `active`: places in met, on the stack; the lights' lists begin at `from` of ranges.
@@ -264,9 +322,7 @@ struct GaussianPanels::Build {
       bool sampled = any;
       for (std::size_t k = 0; k < a.lights.size(); ++k) {
         const Range r = ranges[shading + k];
-        const Ways ways(a.lights[k], sphere);
-        for (std::uint32_t i = r.begin; i < r.end; ++i)
-          longest = std::min(longest, ways.smooth(a.gaussians[stack[i]], a.lights[k]));
+        longest = std::min(longest, smooth_shadow(k, r, sphere));
         if (!any && r.begin == r.end) continue;
         sampled = true;
         if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
@@ -309,9 +365,11 @@ struct GaussianPanels::Build {
     bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       Shade s;
+      const Range list = ranges[shading + k];
+      s.shaded = list.begin < list.end;
       s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
       const Ways ways(a.lights[k], sphere);
-      for (std::uint32_t i = ranges[shading + k].begin; i < ranges[shading + k].end; ++i) {
+      for (std::uint32_t i = list.begin; i < list.end && a.depths.empty(); ++i) {
         out.indices_.push_back(stack[i] | (ways.behind(a.gaussians[stack[i]]) ? around_light : 0));
       }
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
@@ -342,6 +400,10 @@ struct GaussianPanels::Build {
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);
     const Range all{0, static_cast<std::uint32_t>(stack.size())};
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      if (!a.depths.empty()) {
+        ranges.push_back({0, a.gaussians.empty() ? 0U : 1U});
+        continue;
+      }
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = 0; i < a.gaussians.size(); ++i) stack.push_back(i);
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});

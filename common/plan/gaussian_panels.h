@@ -28,7 +28,8 @@ class GaussianPanels {
   };
   // A light, seen from one panel.
   struct Shade {
-    Range shading;  // Gaussians that may stand between it and the panel
+    Range shading;        // Gaussians that may stand between it and the panel; empty where volumes hold the depths
+    bool shaded = false;  // something may stand there
     std::uint32_t levels =
         0;  // > 0: it is so near that the panel is cut at its foot and at length / cut_ratio^1..levels to both sides
   };
@@ -53,9 +54,7 @@ class GaussianPanels {
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
-  static bool closed_form(const Panel& p, const Shade& s) {
-    return p.active.begin == p.active.end && s.shading.begin == s.shading.end;
-  }
+  static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
  private:
   struct Cone;
