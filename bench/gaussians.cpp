@@ -1,5 +1,5 @@
-// airlight-gaussians: gaussian-airlight as tables for docs/RESULTS.md: the rows of Zhou et al.'s table 1 without an environment map at
-// their size; closed forms on the way to the lights beside volumes, time and error, by the number of Gaussians.
+// airlight-gaussians: gaussian-airlight as tables for docs/RESULTS.md: the rows of Zhou et al.'s table 1 without an environment
+// map at their size; closed forms on the way to the lights beside volumes, time and error, by the number of Gaussians.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ Times frame_times(const Scene& loaded, const RenderSettings& settings, bool all_
   return {median(frame), median(volumes), median(airlight)};
 }
 
-double relative_rmse(const PlainImage& image, const PlainImage& truth) {
+double relative_rmse(const HostImage& image, const HostImage& truth) {
   double error = 0, power = 0;
   for (std::size_t i = 0; i < truth.values.size(); ++i) {
     const auto t = static_cast<double>(truth.values[i]), d = static_cast<double>(image.values[i]) - t;
@@ -114,7 +114,7 @@ double relative_rmse(const PlainImage& image, const PlainImage& truth) {
   return std::sqrt(error / power);
 }
 
-PlainImage airlight_of(const Scene& scene, RenderSettings settings) {
+HostImage airlight_of(const Scene& scene, RenderSettings settings) {
   settings.images = {"airlight"};
   Renderer renderer({.backend = "cpu"});
   return renderer.render(scene, settings).image("airlight");
@@ -122,8 +122,8 @@ PlainImage airlight_of(const Scene& scene, RenderSettings settings) {
 
 void table_one() {
   fmt::print("Zhou et al., table 1, 800 x 600: frames a second, the paper's (airlight at a quarter) in brackets\n");
-  fmt::print("{:>10} {:>7} {:>9} {:>8} {:>12} {:>16} {:>16}\n", "Gaussians", "lights", "vertices", "paper", "size", "only the camera",
-             "all moves");
+  fmt::print("{:>10} {:>7} {:>9} {:>8} {:>12} {:>16} {:>16}\n", "Gaussians", "lights", "vertices", "paper", "size",
+             "only the camera", "all moves");
   const auto row = [](int gaussians, int lights, unsigned side, int paper) {
     const Scene scene = steam(gaussians, lights, side);
     for (const Extent extent : {full, quarter}) {
@@ -138,20 +138,22 @@ void table_one() {
 }
 
 void light_paths() {
-  fmt::print("\nThe way to one lamp by closed forms and by volume, 200 x 150, default knobs: frame ms when all moves, thread ms of volumes and\n"
-             "airlight, relative RMSE of the airlight to closed forms and 12 nodes in percent\n");
+  fmt::print(
+      "\nThe way to one lamp by closed forms and by volume, 200 x 150, default knobs: frame ms when all moves, thread ms of "
+      "volumes and\n"
+      "airlight, relative RMSE of the airlight to closed forms and 12 nodes in percent\n");
   fmt::print("{:>10} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "Gaussians", "path", "frame", "only cam.", "volumes",
              "airlight", "RMSE", "12 nodes");
   for (const int n : {4, 10, 30, 100, 300, 1000, 3000, 10000}) {
     const Scene scene = steam(n, 1, 40);
     const Extent small{40, 30};
-    const PlainImage truth = airlight_of(scene, settings_of(small, "exact", "12"));
+    const HostImage truth = airlight_of(scene, settings_of(small, "exact", "12"));
     for (const char* path : {"exact", "volume"}) {
       if (n > 3000 && std::string_view(path) == "exact") continue;
       const RenderSettings settings = settings_of(quarter, path, "4");
       const Times all = frame_times(scene, settings, true, 3), camera = frame_times(scene, settings, false, 3);
-      fmt::print("{:10} {:>8} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:10.3f} {:10.3f}\n", n, path, all.frame, camera.frame, all.volumes,
-                 all.airlight, 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "4")), truth),
+      fmt::print("{:10} {:>8} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:10.3f} {:10.3f}\n", n, path, all.frame, camera.frame,
+                 all.volumes, all.airlight, 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "4")), truth),
                  100 * relative_rmse(airlight_of(scene, settings_of(small, path, "12")), truth));
     }
   }

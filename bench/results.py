@@ -113,6 +113,10 @@ def propagation(out):
     return "```\n" + "\n".join(lines_of(os.path.join(out, "propagation.txt"))).strip() + "\n```"
 
 
+def gaussians(out):
+    return "```\n" + "\n".join(lines_of(os.path.join(out, "gaussians.txt"))).strip() + "\n```"
+
+
 def erf(out):
     """Two tables of bench/erf.cpp: by name, a column an instruction set; the best of all repetitions, by CPU time."""
     with open(os.path.join(out, "erf.json"), encoding="utf-8") as file:
@@ -198,7 +202,7 @@ def main():
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
               "shadows": (shadows, "shadows.txt"),
-              "propagation": (propagation, "propagation.txt"), "erf": (erf, "erf.json")}
+              "propagation": (propagation, "propagation.txt"), "gaussians": (gaussians, "gaussians.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
