@@ -77,7 +77,7 @@ def kernels(out):
     for case, times in cases.items():
         row = [case] + [short(times[c]) if c in times else "" for c in columns]
         rows.append(row + [short(times["gl"] / times[compare]) if "gl" in times and compare in times else ""])
-    return table(["800 x 600 [ms]"] + columns + ["gl / " + compare], rows)
+    return table(["400 x 300 [ms]"] + columns + ["gl / " + compare], rows)
 
 
 def startup(out):

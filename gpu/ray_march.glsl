@@ -109,7 +109,7 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
     float after = to - foot;
     float ra = sqrt(fma(before, before, h * h));
     float rb = sqrt(fma(after, after, h * h));
-    weight = step_angle(from, to, ra, rb, foot, h);
+    weight = step_angle(from, to, ra, rb, foot, h, 1.0 / h);
     float r;
     step_means(from, to, ra, rb, foot, h, weight, at, r);
     phase = step_phase(phase_kind, emission_g.w, before, after, ra, rb, h);

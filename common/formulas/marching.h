@@ -21,7 +21,7 @@ FORMULA real step_angle(real a, real b, real ra, real rb, real foot, real h) {
   mask inside = both < 0.0;
   real rise = select(inside, to_b * (h + ra) - to_a * (h + rb), h * (b - a));
   real run = select(inside, fma(h + ra, h + rb, both), fma(ra, rb, fma(h, h, both)));
-  return 2.0 / h * atan_(rise / max(run, 1e-30));
+  return 2.0 * over_h * atan_(rise / max(run, 1e-30));
 }
 
 // r + x for x = past the foot, where they cancel too.
@@ -73,10 +73,12 @@ FORMULA real mean_phase(int kind, real g, real sin_a, real cos_a, real sin_b, re
 // The same over a step, whose ends lie to_a and to_b from the foot: halfway where the angle is small, in four parts where it is wide.
 FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb, real h) {
   if (kind == 0) return phase_isotropic();
-  real s0 = to_a / ra;
-  real c0 = h / ra;
-  real s4 = to_b / rb;
-  real c4 = h / rb;
+  real over_ra = 1.0 / ra;
+  real over_rb = 1.0 / rb;
+  real s0 = to_a * over_ra;
+  real c0 = h * over_ra;
+  real s4 = to_b * over_rb;
+  real c4 = h * over_rb;
   real s2;
   real c2;
   halfway(s0, c0, s4, c4, s2, c2);
@@ -112,5 +114,7 @@ FORMULA real deepest() { return 80.0; }
 // Whether a ray ends behind `front`: `most` is the radiance that all of it could have, seen through nothing (int sigma_t exp(-T) dt is 1 at most), `seen` what
 // it has. From exp(-16) on it ends where what is behind can change that by 1e-6 at most.
 FORMULA mask ray_ended(real front, real most, real seen) {
-  return (front >= deepest()) || ((front >= 16.0) && (transmittance(front) * most <= seen * 1e-6));
+  mask deep = front >= 16.0;
+  if (!any_lane(deep)) return deep;
+  return (front >= deepest()) || (deep && (transmittance(front) * most <= seen * 1e-6));
 }

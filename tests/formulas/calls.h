@@ -75,7 +75,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 31) {
     real ra = sqrt(fma(a[0] - a[2], a[0] - a[2], a[3] * a[3]));
     real rb = sqrt(fma(a[1] - a[2], a[1] - a[2], a[3] * a[3]));
-    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3]);
+    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3], 1.0 / a[3]);
     step_means(a[0], a[1], ra, rb, a[2], a[3], r[0], r[1], r[2]);
   }
   if (formula == 34) {
