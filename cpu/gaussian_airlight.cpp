@@ -371,7 +371,8 @@ HWY_EXPORT(gaussian_airlight);
 void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
   static_assert(tile_side % bin_side == 0);
   GaussianPanels panels;
-  const GaussLegendre rule(a.samples);
+  std::vector<GaussLegendre> rules;  // of one node and more
+  for (int n = 1; n <= a.samples; ++n) rules.emplace_back(n);
   std::vector<GaussianTerms> terms;
   for (const GaussianDensity& g : a.gaussians) terms.push_back({1 / g.radius, f32::gaussian_whole(g.extinction, g.radius).v});
   AlignedFloats scratch;
@@ -380,7 +381,8 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, lit, scratch, lit_scratch, x, y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules[static_cast<std::size_t>(panels.samples() - 1)],
+                                                         terms, lit, scratch, lit_scratch, x, y);
     }
   }
 }

@@ -77,11 +77,11 @@ class PanelLists {
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
-      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.sampled ? 1 : 0);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.sampled ? p.samples() : 0);
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = one.sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
+      const std::int64_t a_piece = one.sampled ? 1 + p.samples() * (1 + active.y - active.x + of_lights) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
@@ -134,8 +134,8 @@ class PanelLists {
 
 struct Knobs {
   glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
-  int phase_kind, samples, side, columns;
-  glm::vec4 rule[16];
+  int phase_kind, side, columns, unused;
+  glm::vec4 rules[GaussianAirlight::most_samples * (GaussianAirlight::most_samples + 1) / 2];
 };
 
 }  // namespace
@@ -168,12 +168,15 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
               {a.ambient, a.sky_distance},
               {a.emission, static_cast<float>(a.phase.g)},
               static_cast<int>(a.phase.kind),
-              a.samples,
               bin_side,
               lists.columns(),
+              0,
               {}};
-  const GaussLegendre rule(a.samples);
-  for (std::size_t n = 0; n < rule.node.size(); ++n) knobs.rule[n] = {rule.node[n], rule.weight[n], 0, 0};
+  glm::vec4* to = knobs.rules;
+  for (int count = 1; count <= a.samples; ++count) {
+    const GaussLegendre rule(count);
+    for (std::size_t n = 0; n < rule.node.size(); ++n) *to++ = {rule.node[n], rule.weight[n], 0, 0};
+  }
   r.block(knobs_binding, knobs);
   const auto each_part = [&](bool last, auto&& dispatch) {
     for (int part = 0; part < lists.dispatches(); ++part) {

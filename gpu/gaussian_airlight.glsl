@@ -16,14 +16,14 @@ layout(std140, binding = 2) uniform Knobs {
   vec4 ambient_sky_distance;
   vec4 emission_g;
   int phase_kind;
-  int samples;
   int bin_side;
   int bin_columns;
-  vec4 rule[16];  // node, weight
+  int unused;
+  vec4 rules[136];  // node, weight: that of one node, that of two, and so on
 };
 
 // The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
-// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends,
+// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end, lists and how many nodes it has; of each light's list there the ends,
 // the levels, and whether anything may shade it; Gaussians.
 layout(std430, binding = 0) readonly buffer SquareBlock { ivec4 squares[]; };
 layout(std430, binding = 1) readonly buffer PanelBlock { ivec4 panels[]; };
@@ -132,13 +132,16 @@ void add(int k, vec3 scattered) {
 
 bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.w == 0; }
 
+int samples;  // of this panel
+
 // By the nodes: of the lights, and of what glows.
 void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
   for (int n = 0; n < samples; ++n) {
-    float t = fma(width, rule[n].x, middle);
-    float weight = width * rule[n].y;
+    vec4 rule = rules[samples * (samples - 1) / 2 + n];
+    float t = fma(width, rule.x, middle);
+    float weight = width * rule.y;
     Local here = local_at(meets, t);
     for (int k = first_light(); k < end_light() && lights; ++k) {
       ivec4 shade = shades[first_shade + k];
@@ -268,7 +271,8 @@ void take_panel(int p, int first, int last) {
   if (!(from < to) || ray_ended(fma(from, albedo_extinction.w, front), most, largest(sum))) return;
   bool empty = meets.x == meets.y;
   if (empty && first == 0) closed_forms(meets, first_shade, from, to);
-  if (two.w == 0) return;
+  samples = two.w;
+  if (samples == 0) return;
   make_cuts(first_shade, panel_end - from, from, to);
   for (int k = first; k + 1 < cut_count && k < last; ++k) {
     if (cut[k] < cut[k + 1]) take_piece(meets, first_shade, cut[k], cut[k + 1]);

@@ -14,7 +14,7 @@ FORMULA real graded_step(real k, real n, real length, real extinction) {
 // A step [a, b] beside a point light whose foot is at `foot`, h > 0 away, ra and rb its distances from the ends: int_a^b dt / r^2, the angle in
 // which the light sees the step over h [1/m]. Half its tangent is written for a foot outside the step and for one inside: each cancels in the
 // other's place.
-FORMULA real step_angle(real a, real b, real ra, real rb, real foot, real h) {
+FORMULA real step_angle(real a, real b, real ra, real rb, real foot, real h, real over_h) {
   real to_a = a - foot;
   real to_b = b - foot;
   real both = to_a * to_b;

@@ -16,6 +16,7 @@ constexpr double horizon = 1e15;     // [m]
 constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
 // What finer panels are worth falls with what stands before them: after this many they are taken as they come.
 constexpr std::size_t many_panels = 1024;
+constexpr double sharing[2] = {64, 512};  // so many Gaussians of equal share make up for a node, and for two
 
 // cos(x) for x in 0..pi by its series: the same on every machine, where the C library's is not.
 double cosine(double x) {
@@ -394,7 +395,19 @@ struct GaussianPanels::Build {
     out.panels_.push_back(p);
   }
 
+  int samples() const {
+    double sum = 0, squares = 0;
+    for (const Met& m : met) {
+      const double depth = m.extinction * m.radius * falloff_bound(squared(m.least_distance / m.radius));
+      sum += depth, squares += depth * depth;
+    }
+    int n = a.samples;
+    for (const double many : sharing) n -= n > 2 && sum * sum > many * squares ? 1 : 0;
+    return n;
+  }
+
   void run() {
+    out.samples_ = samples();
     const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
     const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);

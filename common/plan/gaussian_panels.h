@@ -53,6 +53,9 @@ class GaussianPanels {
   std::span<const std::uint32_t> indices() const { return indices_; }
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
+  // Nodes of a panel: the algorithm's, or one or two fewer where many Gaussians share in what is seen, each a little, so that
+  // their errors cancel; but not fewer than two then.
+  int samples() const { return samples_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
   static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
@@ -63,6 +66,7 @@ class GaussianPanels {
   std::vector<Panel> panels_;
   std::vector<Shade> shades_;
   std::vector<std::uint32_t> indices_, met_;
+  int samples_ = 1;
 };
 
 }  // namespace airlight

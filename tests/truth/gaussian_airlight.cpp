@@ -34,7 +34,7 @@ void hold_volumes(const Scene& scene, Extent extent, const ReferenceFrame& truth
     std::printf("%s, samples 8, light_path=volume, light_cells %s: relative RMSE of the airlight %.5f %%\n", frame.device.c_str(),
                 cells, 100 * error);
     EXPECT_FALSE(!(error < tolerance("truth_light_volumes"))) << frame.device;
-    if (scene.medium.gaussians.size() > 1000) break;
+    if (scene.medium.gaussians.size() > 100) break;  // OpenGL may not hold more
   }
 }
 
