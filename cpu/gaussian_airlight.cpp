@@ -33,11 +33,11 @@ struct Scattering {
   const GaussianAirlight& a;
   const TileView& view;
   const GaussianPanels& panels;
-  const GaussLegendre& rule;
+  std::span<const GaussLegendre> rules;  // of one node and more
   std::span<const GaussianTerms> terms;
   RadianceBound bound;
   int erf;
-  bool one_albedo, emits;
+  bool shared, one_albedo, emits;
   const float* tables;
   float* scratch;
   LitRays lit;
@@ -47,7 +47,7 @@ struct Scattering {
   Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                        const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
+                        std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
                         const LitRays& lit_rays);
   HWY_INLINE void begin(int first, Real length);
   HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
@@ -56,7 +56,12 @@ struct Scattering {
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
+  HWY_INLINE void node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here);
   HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE void sample_shared(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE const GaussLegendre& rule_of(const GaussianPanels::Panel& p) const {
+    return rules[static_cast<std::size_t>(p.samples - 1)];
+  }
   HWY_INLINE void sample_lit(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
   HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
@@ -64,15 +69,16 @@ struct Scattering {
 };
 
 HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                                  const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
-                                  const LitRays& lit_rays)
+                                  std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians,
+                                  float* floats, const LitRays& lit_rays)
     : a(algorithm),
       view(tile_view),
       panels(square),
-      rule(quadrature),
+      rules(quadratures),
       terms(of_gaussians),
       bound(algorithm),
       erf(static_cast<int>(algorithm.erf)),
+      shared(square.shared()),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
@@ -101,7 +107,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
     store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
-    store(gaussian_erf(erf, foot * -inverse), floats + start_at);
+    if (!shared) store(gaussian_erf(erf, foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
   if (!a.per_light) return;
@@ -113,8 +119,10 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
 // Optical depth of a Gaussian up to t, beside that of the line through its centre.
 HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-  const Real u = (t - load(floats + foot_at)) * terms[panels.met()[met]].inverse;
-  return gaussian_between(load(floats + lateral_at), load(floats + start_at), gaussian_erf(erf, u));
+  const Real foot = load(floats + foot_at);
+  const float inverse = terms[panels.met()[met]].inverse;
+  const Real start = shared ? gaussian_erf(erf, foot * -inverse) : load(floats + start_at);
+  return gaussian_between(load(floats + lateral_at), start, gaussian_erf(erf, (t - foot) * inverse));
 }
 
 HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
@@ -132,7 +140,7 @@ HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const
     if (!any_lane(load(floats + lateral_at) > 0.0)) continue;
     const GaussianTerms& term = terms[panels.met()[met]];
     const Real past = t - load(floats + foot_at);
-    here.depth = fma(share_to(met, t), term.whole, here.depth);
+    if (!shared) here.depth = fma(share_to(met, t), term.whole, here.depth);
     const Real falloff = load(floats + lateral_at) * gaussian_falloff(term.inverse, past * past);
     here.extinction = fma(falloff, g.extinction, here.extinction);
     if (!one_albedo) {
@@ -207,23 +215,49 @@ HWY_INLINE void Scattering::glow(Real t, Real weight, const Local& here) {
   for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
 }
 
+// What all lights and the medium itself send from a node.
+HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here) {
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
+    if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
+  }
+  if (emits && p.active.begin < p.active.end) glow(t, weight, here);
+}
+
 // From `from` to `to` by the nodes; nothing where to <= from.
 HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
+  const GaussLegendre& rule = rule_of(p);
   const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
   for (std::size_t n = 0; n < rule.node.size(); ++n) {
-    const Real t = fma(half, rule.node[n], middle), weight = half * rule.weight[n];
-    const Local here = local(p, t);
-    for (std::size_t k = 0; k < a.lights.size(); ++k) {
-      const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
-      if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
-    }
-    if (emits && p.active.begin < p.active.end) glow(t, weight, here);
+    const Real t = fma(half, rule.node[n], middle);
+    node(p, t, half * rule.weight[n], local(p, t));
   }
+}
+
+// The same where the depth comes from the nodes, too, and those behind the piece have it in front.
+HWY_INLINE void Scattering::sample_shared(const GaussianPanels::Panel& p, Real from, Real to) {
+  const GaussLegendre& rule = rule_of(p);
+  const std::size_t count = rule.node.size();
+  const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
+  Local here[GaussianAirlight::most_samples];
+  Real uneven[GaussianAirlight::most_samples];
+  for (std::size_t n = 0; n < count; ++n) {
+    here[n] = local(p, fma(half, rule.node[n], middle));
+    uneven[n] = (here[n].extinction - a.extinction) * half;
+  }
+  Real whole = front;
+  for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t k = 0; k < count; ++k) here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
+    node(p, fma(half, rule.node[n], middle), half * rule.weight[n], here[n]);
+    whole = fma(uneven[n], rule.weight[n], whole);
+  }
+  front = whole;
 }
 
 // The same where lights reach only parts of rays: each part has nodes of its own. A light that reaches all or nothing between the
 // ends takes those of the whole.
 HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from, Real to) {
+  const GaussLegendre& rule = rule_of(p);
   Local whole[GaussianAirlight::most_samples];
   bool known = false;
   const auto nodes = [&](Real x0, Real x1, const Local* held, auto&& use) HWY_ATTR {
@@ -309,7 +343,7 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 }
 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
-  for (std::uint32_t n = p.passed.begin; n < p.passed.end; ++n) {
+  for (std::uint32_t n = p.passed.begin; n < p.passed.end && !shared; ++n) {
     const std::uint32_t met = panels.indices()[n];
     front = fma(share_to(met, 1e15), terms[panels.met()[met]].whole, front);
   }
@@ -320,15 +354,17 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   const Real last = select(going, to, from);
   const bool empty = p.active.begin == p.active.end;
   if (empty) closed_forms(p, from, last, going);
-  if (!p.sampled) return;
+  if (p.samples == 0) return;
   Real cut[GaussianPanels::most_cuts + 2];
   const int n = cuts(p, from, last, cut);
   for (int k = 0; k + 1 < n; ++k) {
     if (!any_lane(cut[k] < cut[k + 1])) continue;
-    if (!lit) {
-      sample(p, cut[k], cut[k + 1]);
-    } else {
+    if (shared) {
+      sample_shared(p, cut[k], cut[k + 1]);
+    } else if (lit) {
       sample_lit(p, cut[k], cut[k + 1]);
+    } else {
+      sample(p, cut[k], cut[k + 1]);
     }
   }
 }
@@ -337,9 +373,9 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
 
 // One square of the tile, its upper left pixel at (x, y) in the tile.
 static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
-                              const GaussLegendre& rule, std::span<const GaussianTerms> terms, std::span<const LitParts> lit,
-                              AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
-  Scattering s(a, view, panels, rule, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
+                              std::span<const GaussLegendre> rules, std::span<const GaussianTerms> terms,
+                              std::span<const LitParts> lit, AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
+  Scattering s(a, view, panels, rules, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
   const float* distance = view.plane(a.distance);
   for (int row = y; row < y + bin_side; ++row) {
     for (int column = x; column < x + bin_side; column += lanes) {
@@ -381,7 +417,7 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules[static_cast<std::size_t>(panels.samples() - 1)],
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules,
                                                          terms, lit, scratch, lit_scratch, x, y);
     }
   }

@@ -12,6 +12,7 @@ namespace airlight {
 namespace {
 
 constexpr GLuint squares_binding = 0, panels_binding = 1, shades_binding = 2, indices_binding = 4;  // 3: gpu/shadow_run.glsl
+constexpr int most_before = 374;  // 1 + 4 + 9 + ... + 16^2 of GaussLegendre::before, four in a vector
 constexpr int all_pieces = GaussianPanels::most_cuts + 2;
 
 // The panels of all squares, as the shader reads them; and what it may do in one dispatch (LoopBudget).
@@ -77,11 +78,13 @@ class PanelLists {
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
-      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.sampled ? p.samples() : 0);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades),
+                           p.shared() ? -one.samples : one.samples);
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = one.sampled ? 1 + p.samples() * (1 + active.y - active.x + of_lights) : 0;
+      const std::int64_t a_piece =
+          one.samples > 0 ? 1 + one.samples * (1 + active.y - active.x + of_lights + (p.shared() ? one.samples : 0)) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
@@ -136,6 +139,7 @@ struct Knobs {
   glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
   int phase_kind, side, columns, unused;
   glm::vec4 rules[GaussianAirlight::most_samples * (GaussianAirlight::most_samples + 1) / 2];
+  glm::vec4 before[most_before];
 };
 
 }  // namespace
@@ -171,11 +175,17 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
               bin_side,
               lists.columns(),
               0,
+              {},
               {}};
   glm::vec4* to = knobs.rules;
+  std::size_t beforehand = 0;
   for (int count = 1; count <= a.samples; ++count) {
     const GaussLegendre rule(count);
     for (std::size_t n = 0; n < rule.node.size(); ++n) *to++ = {rule.node[n], rule.weight[n], 0, 0};
+    for (const float b : rule.before) {
+      knobs.before[beforehand / 4][static_cast<int>(beforehand % 4)] = b;
+      ++beforehand;
+    }
   }
   r.block(knobs_binding, knobs);
   const auto each_part = [&](bool last, auto&& dispatch) {

@@ -19,7 +19,8 @@ layout(std140, binding = 2) uniform Knobs {
   int bin_side;
   int bin_columns;
   int unused;
-  vec4 rules[136];  // node, weight: that of one node, that of two, and so on
+  vec4 rules[136];   // node, weight: that of one node, that of two, and so on
+  vec4 before[374];  // theirs, four in a vector (GaussLegendre::before)
 };
 
 // The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
@@ -72,6 +73,9 @@ struct Local {
   float depth;
 };
 
+int samples;  // of this panel
+bool shared_by_many;  // GaussianPanels::shared()
+
 Local local_at(ivec2 meets, float t) {
   Local here = Local(albedo_extinction.w, albedo_extinction.xyz * albedo_extinction.w, emission_g.xyz, front);
   for (int n = meets.x; n < meets.y; ++n) {
@@ -85,8 +89,10 @@ Local local_at(ivec2 meets, float t) {
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_lateral(inverse, h);
-    float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
-    here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
+    if (!shared_by_many) {
+      float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
+      here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
+    }
     float falloff = lateral * gaussian_falloff(inverse, past * past);
     float extinction = falloff * albedo_extinction_of(g).w;
     here.extinction += extinction;
@@ -132,37 +138,62 @@ void add(int k, vec3 scattered) {
 
 bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.w == 0; }
 
-int samples;  // of this panel
+// What a node sends: of the lights, and of what glows.
+void take_node(ivec2 meets, int first_shade, float t, float weight, Local here, bool lights, bool glow) {
+  for (int k = first_light(); k < end_light() && lights; ++k) {
+    ivec4 shade = shades[first_shade + k];
+    if (closed_form(meets, shade)) continue;
+    vec4 vector_radius = light_values[2 * k];
+    vec4 power_directional = light_values[2 * k + 1];
+    bool directional = power_directional.w != 0.0;
+    float more = here.depth + shading(shade, k, vector_radius.xyz, directional, d * t);
+    float density;
+    if (directional) {
+      density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);
+    } else {
+      float foot;
+      float h;
+      beside_ray(vector_radius, d, foot, h);
+      density = airlight_density(phase_kind, emission_g.w, albedo_extinction.w, foot, h, t, more);
+    }
+    add(k, here.scattering * (weight * density) * power_directional.xyz);
+  }
+  if (glow && meets.x < meets.y) sum += weight * transmittance(fma(t, albedo_extinction.w, here.depth)) * here.emission;
+}
 
-// By the nodes: of the lights, and of what glows.
+vec4 rule_of(int n) { return rules[samples * (samples - 1) / 2 + n]; }
+
 void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
   for (int n = 0; n < samples; ++n) {
-    vec4 rule = rules[samples * (samples - 1) / 2 + n];
-    float t = fma(width, rule.x, middle);
-    float weight = width * rule.y;
-    Local here = local_at(meets, t);
-    for (int k = first_light(); k < end_light() && lights; ++k) {
-      ivec4 shade = shades[first_shade + k];
-      if (closed_form(meets, shade)) continue;
-      vec4 vector_radius = light_values[2 * k];
-      vec4 power_directional = light_values[2 * k + 1];
-      bool directional = power_directional.w != 0.0;
-      float more = here.depth + shading(shade, k, vector_radius.xyz, directional, d * t);
-      float density;
-      if (directional) {
-        density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);
-      } else {
-        float foot;
-        float h;
-        beside_ray(vector_radius, d, foot, h);
-        density = airlight_density(phase_kind, emission_g.w, albedo_extinction.w, foot, h, t, more);
-      }
-      add(k, here.scattering * (weight * density) * power_directional.xyz);
-    }
-    if (glow && meets.x < meets.y) sum += weight * transmittance(fma(t, albedo_extinction.w, here.depth)) * here.emission;
+    float t = fma(width, rule_of(n).x, middle);
+    take_node(meets, first_shade, t, width * rule_of(n).y, local_at(meets, t), lights, glow);
   }
+}
+
+// The same where the depth comes from the nodes, too, and those behind the piece have it in front.
+void take_shared(ivec2 meets, int first_shade, float from, float to) {
+  float width = max(to - from, 0.0) * 0.5;
+  float middle = (from + to) * 0.5;
+  float uneven[16];
+  vec3 scattering[16];
+  vec3 emission[16];
+  for (int n = 0; n < samples; ++n) {
+    Local here = local_at(meets, fma(width, rule_of(n).x, middle));
+    uneven[n] = (here.extinction - albedo_extinction.w) * width;
+    scattering[n] = here.scattering;
+    emission[n] = here.emission;
+  }
+  float whole = front;
+  int row = (samples - 1) * samples * (2 * samples - 1) / 6;
+  for (int n = 0; n < samples; ++n) {
+    Local here = Local(0.0, scattering[n], emission[n], front);
+    for (int k = 0; k < samples; ++k, ++row) here.depth = fma(uneven[k], before[row / 4][row % 4], here.depth);
+    take_node(meets, first_shade, fma(width, rule_of(n).x, middle), width * rule_of(n).y, here, true, true);
+    whole = fma(uneven[n], rule_of(n).y, whole);
+  }
+  front = whole;
 }
 
 #ifdef WITH_TABLES
@@ -252,7 +283,13 @@ void take_piece(ivec2 meets, int first_shade, float from, float to) {
   }
 }
 #else
-void take_piece(ivec2 meets, int first_shade, float from, float to) { take_samples(meets, first_shade, from, to, true, true); }
+void take_piece(ivec2 meets, int first_shade, float from, float to) {
+  if (shared_by_many) {
+    take_shared(meets, first_shade, from, to);
+  } else {
+    take_samples(meets, first_shade, from, to, true, true);
+  }
+}
 #endif
 
 // Pieces first to last of a panel.
@@ -264,14 +301,15 @@ void take_panel(int p, int first, int last) {
   ivec2 meets = one.zw;
   ivec2 passed = two.xy;
   int first_shade = two.z;
-  if (first == 0) {
+  shared_by_many = two.w < 0;
+  samples = abs(two.w);
+  if (first == 0 && !shared_by_many) {
     for (int n = passed.x; n < passed.y; ++n) front += depth_to(indices[n], 1e15);
   }
   float to = min(panel_end, end);
   if (!(from < to) || ray_ended(fma(from, albedo_extinction.w, front), most, largest(sum))) return;
   bool empty = meets.x == meets.y;
   if (empty && first == 0) closed_forms(meets, first_shade, from, to);
-  samples = two.w;
   if (samples == 0) return;
   make_cuts(first_shade, panel_end - from, from, to);
   for (int k = first; k + 1 < cut_count && k < last; ++k) {

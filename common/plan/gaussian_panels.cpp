@@ -100,21 +100,39 @@ struct Reach {
 
 }  // namespace
 
-GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()) {
+GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()), before(node.size() * node.size()) {
+  std::vector<double> at, weights;
   for (int i = 0; i < n; ++i) {
     double x = -cosine(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), slope = 1;
     for (int iteration = 0; iteration < 8; ++iteration) {  // Newton's, on Legendre's polynomial
-      double before = 1, value = x;
+      double last = 1, value = x;
       for (int k = 2; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
-        before = value;
+        const double next = ((2 * k - 1) * x * value - (k - 1) * last) / k;
+        last = value;
         value = next;
       }
-      slope = n * (before - x * value) / (1 - x * x);
+      slope = n * (last - x * value) / (1 - x * x);
       x -= value / slope;
     }
+    at.push_back(x);
+    weights.push_back(2 / ((1 - x * x) * slope * slope));
     node[static_cast<std::size_t>(i)] = static_cast<float>(x);
-    weight[static_cast<std::size_t>(i)] = static_cast<float>(2 / ((1 - x * x) * slope * slope));
+    weight[static_cast<std::size_t>(i)] = static_cast<float>(weights.back());
+  }
+  // The polynomial that is 1 at node j and 0 at the others is w_j sum_m (m + 1/2) P_m(x_j) P_m(x), and
+  // int_-1^x P_m = (P_m+1(x) - P_m-1(x)) / (2 m + 1).
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      double there[2] = {1, at[j]}, here[2] = {1, at[i]}, sum = 1 + at[i];
+      for (int m = 1; m < n; ++m) {
+        const double next_here = ((2 * m + 1) * at[i] * here[1] - m * here[0]) / (m + 1);
+        const double next_there = ((2 * m + 1) * at[j] * there[1] - m * there[0]) / (m + 1);
+        sum += there[1] * (next_here - here[0]);
+        here[0] = here[1], here[1] = next_here;
+        there[0] = there[1], there[1] = next_there;
+      }
+      before[i * at.size() + j] = static_cast<float>(0.5 * weights[j] * sum);
+    }
   }
 }
 
@@ -176,6 +194,7 @@ struct GaussianPanels::Build {
   std::vector<Met> met;  // in the order of out.met_
   double sharp;
   bool everywhere;  // something is to be seen also where no Gaussian is
+  int most_spared = 0;
   Reach reach;
   // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
   std::vector<std::uint32_t> stack;
@@ -194,10 +213,10 @@ struct GaussianPanels::Build {
 
   void meet(const GaussianDensity& g, std::uint32_t index) {
     const Cone::Place p = cone.place(g.center);
-    const double reach = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
+    const double within = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
     const double h = cone.least_distance(p);
-    if (h >= reach) return;
-    const double chord = std::sqrt((reach - h) * (reach + h));
+    if (h >= within) return;
+    const double chord = std::sqrt((within - h) * (within + h));
     const double begin = std::max(0.0, cone.least_foot(p) - chord), end = cone.most_foot(p) + chord;
     if (end <= 0) return;
     out.met_.push_back(index);
@@ -332,7 +351,7 @@ struct GaussianPanels::Build {
       const bool fine = end - begin <= longest || out.panels_.size() > many_panels;
       const bool good = !sampled || (fine && cuts <= most_cuts);
       if (good || depth == 0 || end - begin < finest * end) {
-        add(begin, end, inside, shading, sphere);
+        add(begin, end, inside, shading, sphere, (end - begin) / longest);
       } else {
         const double middle = begin + (end - begin) / 2;
         cut(begin, middle, inside, shading, depth - 1);
@@ -343,7 +362,7 @@ struct GaussianPanels::Build {
     ranges.resize(ranges_size);
   }
 
-  void add(double begin, double end, Range inside, std::size_t shading, const Sphere& sphere) {
+  void add(double begin, double end, Range inside, std::size_t shading, const Sphere& sphere, double part) {
     Panel p;
     p.begin = static_cast<float>(begin);
     p.end = static_cast<float>(end);
@@ -361,7 +380,7 @@ struct GaussianPanels::Build {
     p.passed.end = static_cast<std::uint32_t>(out.indices_.size());
     last_active = p.active;
     p.shades = static_cast<std::uint32_t>(out.shades_.size());
-    p.sampled = p.active.begin < p.active.end;
+    bool sampled = p.active.begin < p.active.end;
     std::uint32_t cuts = 0;
     bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
@@ -376,7 +395,7 @@ struct GaussianPanels::Build {
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
       const bool closed = closed_form(p, s);
       plain = plain && closed;
-      p.sampled = p.sampled || !closed;
+      sampled = sampled || !closed;
       // Only a panel that cannot be divided any more has more cuts than there is room for.
       const std::uint32_t n = closed ? 0 : levels(a.lights[k], begin, end);
       if (n > 0 && cuts + 2 * n + 1 <= most_cuts) s.levels = n, cuts += 2 * n + 1;
@@ -392,22 +411,30 @@ struct GaussianPanels::Build {
         return;
       }
     }
+    if (sampled) p.samples = samples(part);
     out.panels_.push_back(p);
   }
 
-  int samples() const {
+  // How many nodes fewer a panel may have.
+  int spared() const {
     double sum = 0, squares = 0;
     for (const Met& m : met) {
       const double depth = m.extinction * m.radius * falloff_bound(squared(m.least_distance / m.radius));
       sum += depth, squares += depth * depth;
     }
-    int n = a.samples;
-    for (const double many : sharing) n -= n > 2 && sum * sum > many * squares ? 1 : 0;
+    int n = 0;
+    for (const double many : sharing) n += sum * sum > many * squares ? 1 : 0;
     return n;
+  }
+  // `part`: of the longest panel.
+  int samples(double part) const {
+    const double n = std::ceil(static_cast<double>(a.samples) * (0.4 + 0.6 * std::min(part, 1.0)) - 1e-9);
+    return std::clamp(static_cast<int>(n) - most_spared, std::min(2, a.samples), a.samples);
   }
 
   void run() {
-    out.samples_ = samples();
+    most_spared = spared();
+    out.shared_ = most_spared > 0 && !a.volumes;
     const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
     const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);

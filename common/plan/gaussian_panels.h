@@ -14,10 +14,11 @@ namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square
 
-// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16.
+// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16. What values at the nodes have in front of node
+// i of them is the sum of before[i n + j] times value j.
 struct GaussLegendre {
   explicit GaussLegendre(int n);
-  std::vector<float> node, weight;
+  std::vector<float> node, weight, before;
 };
 
 // The panels of one square, in order along the rays.
@@ -38,7 +39,7 @@ class GaussianPanels {
     Range active;              // which of met() rays may meet within
     Range passed;              // which were active before and are no more
     std::uint32_t shades = 0;  // the first of its Shades, one a light
-    bool sampled = false;      // it has nodes: not every light has the closed form
+    int samples = 0;           // how many nodes it has; 0: every light has the closed form
   };
   // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
   static constexpr std::uint32_t around_light = 1U << 31U;
@@ -53,9 +54,9 @@ class GaussianPanels {
   std::span<const std::uint32_t> indices() const { return indices_; }
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
-  // Nodes of a panel: the algorithm's, or one or two fewer where many Gaussians share in what is seen, each a little, so that
-  // their errors cancel; but not fewer than two then.
-  int samples() const { return samples_; }
+  // Many Gaussians share in what is seen, each a little, so that their errors cancel: panels have fewer nodes, though not fewer
+  // than two, and optical depth on the ray is integrated by these, not added up from closed forms.
+  bool shared() const { return shared_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
   static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
@@ -66,7 +67,7 @@ class GaussianPanels {
   std::vector<Panel> panels_;
   std::vector<Shade> shades_;
   std::vector<std::uint32_t> indices_, met_;
-  int samples_ = 1;
+  bool shared_ = false;
 };
 
 }  // namespace airlight
