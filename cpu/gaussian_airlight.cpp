@@ -20,12 +20,13 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-// What a ray knows of each Gaussian of the square, behind each other in `scratch`: a vector each.
-enum : std::ptrdiff_t { foot_at = 0, lateral_at = lanes, start_at = 2 * lanes, floats_a_gaussian = 3 * lanes };
+// What a ray knows of each Gaussian of the square, behind each other in `scratch`: a vector each. Strength: the extinction at the
+// foot.
+enum : std::ptrdiff_t { foot_at = 0, strength_at = lanes, start_at = 2 * lanes, floats_a_gaussian = 3 * lanes };
 
 struct Local {
   Real extinction, scattering[3], emission[3];
-  Real depth;  // of Gaussians, from the camera on
+  Real depth;  // of Gaussians, from the camera on; without lit parts only what is in front of the panel
 };
 
 // The rays of a vector of pixels on their way through the panels.
@@ -37,28 +38,30 @@ struct Scattering {
   std::span<const GaussianTerms> terms;
   RadianceBound bound;
   int erf;
-  bool shared, one_albedo, emits;
+  bool one_albedo, emits;
   const float* tables;
   float* scratch;
   LitRays lit;
 
   int i = 0;  // the first pixel
   Real3 d;
-  Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
+  Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with lit parts, of those that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
                         std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
                         const LitRays& lit_rays);
   HWY_INLINE void begin(int first, Real length);
-  HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
+  HWY_INLINE Real depth_of(std::uint32_t met, Real t) const;
   HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
+  template <int n>
+  HWY_INLINE void extinctions(const GaussianPanels::Panel& p, const Real* t, Real* extinction) const;
+  HWY_INLINE void locals(const GaussianPanels::Panel& p, const Real* t, std::size_t count, Local* here) const;
   HWY_INLINE Real shading(const GaussianPanels::Shade& s, std::size_t k, const Real3& place) const;
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
   HWY_INLINE void node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here);
   HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
-  HWY_INLINE void sample_shared(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE const GaussLegendre& rule_of(const GaussianPanels::Panel& p) const {
     return rules[static_cast<std::size_t>(p.samples - 1)];
   }
@@ -78,7 +81,6 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       terms(of_gaussians),
       bound(algorithm),
       erf(static_cast<int>(algorithm.erf)),
-      shared(square.shared()),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
@@ -106,8 +108,8 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
     Real foot, h;
     perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
     store(foot, floats + foot_at);
-    store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
-    if (!shared) store(gaussian_erf(erf, foot * -inverse), floats + start_at);
+    store(select(h < g.reach, gaussian_lateral(inverse, h) * g.extinction, 0.0), floats + strength_at);
+    if (lit) store(gaussian_erf(erf, foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
   if (!a.per_light) return;
@@ -116,13 +118,13 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   }
 }
 
-// Optical depth of a Gaussian up to t, beside that of the line through its centre.
-HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
+// Optical depth of a Gaussian up to t.
+HWY_INLINE Real Scattering::depth_of(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
   const Real foot = load(floats + foot_at);
-  const float inverse = terms[panels.met()[met]].inverse;
-  const Real start = shared ? gaussian_erf(erf, foot * -inverse) : load(floats + start_at);
-  return gaussian_between(load(floats + lateral_at), start, gaussian_erf(erf, (t - foot) * inverse));
+  const GaussianTerms& g = terms[panels.met()[met]];
+  const Real start = lit ? load(floats + start_at) : gaussian_erf(erf, foot * -g.inverse);
+  return gaussian_between(load(floats + strength_at) * g.length, start, gaussian_erf(erf, (t - foot) * g.inverse));
 }
 
 HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
@@ -135,27 +137,69 @@ HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const
   }
   for (std::uint32_t n = p.active.begin; n < p.active.end; ++n) {
     const std::uint32_t met = panels.indices()[n];
-    const GaussianDensity& g = a.gaussians[panels.met()[met]];
     const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-    if (!any_lane(load(floats + lateral_at) > 0.0)) continue;
+    const Real strength = load(floats + strength_at);
+    if (!any_lane(strength > 0.0)) continue;
     const GaussianTerms& term = terms[panels.met()[met]];
     const Real past = t - load(floats + foot_at);
-    if (!shared) here.depth = fma(share_to(met, t), term.whole, here.depth);
-    const Real falloff = load(floats + lateral_at) * gaussian_falloff(term.inverse, past * past);
-    here.extinction = fma(falloff, g.extinction, here.extinction);
-    if (!one_albedo) {
-      const Real extinction = falloff * g.extinction;
-      for (int c = 0; c < 3; ++c) here.scattering[c] = fma(extinction, g.albedo[c], here.scattering[c]);
-    }
-    if (emits) {
-      for (int c = 0; c < 3; ++c) here.emission[c] = fma(falloff, g.emission[c], here.emission[c]);
-    }
+    if (lit) here.depth += depth_of(met, t);
+    const Real extinction = strength * gaussian_falloff(term.inverse, past * past);
+    here.extinction += extinction;
+    const glm::vec3& albedo = a.gaussians[panels.met()[met]].albedo;
+    for (int c = 0; c < 3 && !one_albedo; ++c) here.scattering[c] = fma(extinction, albedo[c], here.scattering[c]);
+    for (int c = 0; c < 3 && emits; ++c) here.emission[c] = fma(extinction, term.emission[c], here.emission[c]);
   }
   if (one_albedo && p.active.begin < p.active.end) {
     const glm::vec3& albedo = a.gaussians[panels.met()[0]].albedo;
     for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * albedo[c];
   }
   return here;
+}
+
+// The extinction of Gaussians at n places, whose exponential functions wait for each other less than those of n calls.
+template <int n>
+HWY_INLINE void Scattering::extinctions(const GaussianPanels::Panel& p, const Real* t, Real* extinction) const {
+  for (int k = 0; k < n; ++k) extinction[k] = 0.0;
+  for (std::uint32_t at = p.active.begin; at < p.active.end; ++at) {
+    const std::uint32_t met = panels.indices()[at];
+    const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
+    const Real strength = load(floats + strength_at);
+    if (!any_lane(strength > 0.0)) continue;
+    const Real foot = load(floats + foot_at);
+    const float inverse = terms[panels.met()[met]].inverse;
+    for (int k = 0; k < n; ++k) {
+      const Real past = t[k] - foot;
+      extinction[k] = fma(strength, gaussian_falloff(inverse, past * past), extinction[k]);
+    }
+  }
+}
+
+// What is at the nodes, where all Gaussians have one albedo and nothing glows.
+HWY_INLINE void Scattering::locals(const GaussianPanels::Panel& p, const Real* t, std::size_t count, Local* here) const {
+  constexpr std::size_t block = 4;
+  const bool any = p.active.begin < p.active.end;
+  const glm::vec3& albedo = any ? a.gaussians[panels.met()[0]].albedo : a.albedo;
+  for (std::size_t n = 0; n < count; n += block) {
+    Real uneven[block];
+    switch (count - n) {
+      case 1:
+        extinctions<1>(p, t + n, uneven);
+        break;
+      case 2:
+        extinctions<2>(p, t + n, uneven);
+        break;
+      case 3:
+        extinctions<3>(p, t + n, uneven);
+        break;
+      default:
+        extinctions<4>(p, t + n, uneven);
+    }
+    for (std::size_t k = n; k < std::min(n + block, count); ++k) {
+      here[k].extinction = uneven[k - n] + a.extinction;
+      here[k].depth = front;
+      for (int c = 0; c < 3; ++c) here[k].scattering[c] = here[k].extinction * albedo[c];
+    }
+  }
 }
 
 // Optical depth of Gaussians between a place and light k.
@@ -224,38 +268,31 @@ HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real we
   if (emits && p.active.begin < p.active.end) glow(t, weight, here);
 }
 
-// From `from` to `to` by the nodes; nothing where to <= from.
+// From `from` to `to` by the nodes, of which the depth comes, too: then errors of extinction in front and of what it scatters
+// make up for each other. Nothing where to <= from.
 HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
-  const GaussLegendre& rule = rule_of(p);
-  const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
-  for (std::size_t n = 0; n < rule.node.size(); ++n) {
-    const Real t = fma(half, rule.node[n], middle);
-    node(p, t, half * rule.weight[n], local(p, t));
-  }
-}
-
-// The same where the depth comes from the nodes, too, and those behind the piece have it in front.
-HWY_INLINE void Scattering::sample_shared(const GaussianPanels::Panel& p, Real from, Real to) {
   const GaussLegendre& rule = rule_of(p);
   const std::size_t count = rule.node.size();
   const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
   Local here[GaussianAirlight::most_samples];
-  Real uneven[GaussianAirlight::most_samples];
+  Real t[GaussianAirlight::most_samples], uneven[GaussianAirlight::most_samples];
+  for (std::size_t n = 0; n < count; ++n) t[n] = fma(half, rule.node[n], middle);
+  if (one_albedo && !emits) locals(p, t, count, here);
   for (std::size_t n = 0; n < count; ++n) {
-    here[n] = local(p, fma(half, rule.node[n], middle));
+    if (!one_albedo || emits) here[n] = local(p, t[n]);
     uneven[n] = (here[n].extinction - a.extinction) * half;
   }
   Real whole = front;
   for (std::size_t n = 0; n < count; ++n) {
     for (std::size_t k = 0; k < count; ++k) here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
-    node(p, fma(half, rule.node[n], middle), half * rule.weight[n], here[n]);
+    node(p, t[n], half * rule.weight[n], here[n]);
     whole = fma(uneven[n], rule.weight[n], whole);
   }
   front = whole;
 }
 
-// The same where lights reach only parts of rays: each part has nodes of its own. A light that reaches all or nothing between the
-// ends takes those of the whole.
+// The same where lights reach only parts of rays: each part has nodes of its own, and depths are closed forms. A light that
+// reaches all or nothing between the ends takes those of the whole.
 HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from, Real to) {
   const GaussLegendre& rule = rule_of(p);
   Local whole[GaussianAirlight::most_samples];
@@ -343,9 +380,9 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 }
 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
-  for (std::uint32_t n = p.passed.begin; n < p.passed.end && !shared; ++n) {
+  for (std::uint32_t n = p.passed.begin; n < p.passed.end && lit; ++n) {
     const std::uint32_t met = panels.indices()[n];
-    front = fma(share_to(met, 1e15), terms[panels.met()[met]].whole, front);
+    front += depth_of(met, 1e15);
   }
   const Real from = p.begin, to = min(p.end, end);
   const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
@@ -359,12 +396,10 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   const int n = cuts(p, from, last, cut);
   for (int k = 0; k + 1 < n; ++k) {
     if (!any_lane(cut[k] < cut[k + 1])) continue;
-    if (shared) {
-      sample_shared(p, cut[k], cut[k + 1]);
-    } else if (lit) {
-      sample_lit(p, cut[k], cut[k + 1]);
-    } else {
+    if (!lit) {
       sample(p, cut[k], cut[k + 1]);
+    } else {
+      sample_lit(p, cut[k], cut[k + 1]);
     }
   }
 }
@@ -386,7 +421,7 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
 
       Real tau = optical_depth(length, a.extinction);
       for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
-        tau = fma(s.share_to(met, s.end), terms[panels.met()[met]].whole, tau);
+        tau += s.depth_of(met, s.end);
       }
       const Real source = opacity(tau);
       for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
@@ -410,15 +445,17 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
   std::vector<GaussLegendre> rules;  // of one node and more
   for (int n = 1; n <= a.samples; ++n) rules.emplace_back(n);
   std::vector<GaussianTerms> terms;
-  for (const GaussianDensity& g : a.gaussians) terms.push_back({1 / g.radius, f32::gaussian_whole(g.extinction, g.radius).v});
+  for (const GaussianDensity& g : a.gaussians) {
+    terms.push_back({1 / g.radius, f32::gaussian_whole(1, g.radius).v, f32::gaussian_whole(g.extinction, g.radius).v,
+                     g.emission / g.extinction});
+  }
   AlignedFloats scratch;
   LitScratch lit_scratch;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules,
-                                                         terms, lit, scratch, lit_scratch, x, y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules, terms, lit, scratch, lit_scratch, x, y);
     }
   }
 }

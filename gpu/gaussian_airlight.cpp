@@ -78,13 +78,12 @@ class PanelLists {
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
-      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades),
-                           p.shared() ? -one.samples : one.samples);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.samples);
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
       const std::int64_t a_piece =
-          one.samples > 0 ? 1 + one.samples * (1 + active.y - active.x + of_lights + (p.shared() ? one.samples : 0)) : 0;
+          one.samples > 0 ? 1 + one.samples * (1 + active.y - active.x + of_lights + (a_.volumes ? 0 : one.samples)) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }

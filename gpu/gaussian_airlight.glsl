@@ -74,7 +74,6 @@ struct Local {
 };
 
 int samples;  // of this panel
-bool shared_by_many;  // GaussianPanels::shared()
 
 Local local_at(ivec2 meets, float t) {
   Local here = Local(albedo_extinction.w, albedo_extinction.xyz * albedo_extinction.w, emission_g.xyz, front);
@@ -89,10 +88,10 @@ Local local_at(ivec2 meets, float t) {
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_lateral(inverse, h);
-    if (!shared_by_many) {
-      float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
-      here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
-    }
+#ifdef WITH_LIT
+    float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
+    here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
+#endif
     float falloff = lateral * gaussian_falloff(inverse, past * past);
     float extinction = falloff * albedo_extinction_of(g).w;
     here.extinction += extinction;
@@ -163,6 +162,7 @@ void take_node(ivec2 meets, int first_shade, float t, float weight, Local here, 
 
 vec4 rule_of(int n) { return rules[samples * (samples - 1) / 2 + n]; }
 
+#ifdef WITH_LIT
 void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
@@ -171,9 +171,9 @@ void take_samples(ivec2 meets, int first_shade, float from, float to, bool light
     take_node(meets, first_shade, t, width * rule_of(n).y, local_at(meets, t), lights, glow);
   }
 }
-
-// The same where the depth comes from the nodes, too, and those behind the piece have it in front.
-void take_shared(ivec2 meets, int first_shade, float from, float to) {
+#else
+// The depth comes from the nodes, too, as cpu/gaussian_airlight.cpp tells.
+void take_samples(ivec2 meets, int first_shade, float from, float to) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
   float uneven[16];
@@ -195,6 +195,7 @@ void take_shared(ivec2 meets, int first_shade, float from, float to) {
   }
   front = whole;
 }
+#endif
 
 #ifdef WITH_TABLES
 // Per unit of power and albedo, where only the homogeneous part is.
@@ -283,13 +284,7 @@ void take_piece(ivec2 meets, int first_shade, float from, float to) {
   }
 }
 #else
-void take_piece(ivec2 meets, int first_shade, float from, float to) {
-  if (shared_by_many) {
-    take_shared(meets, first_shade, from, to);
-  } else {
-    take_samples(meets, first_shade, from, to, true, true);
-  }
-}
+void take_piece(ivec2 meets, int first_shade, float from, float to) { take_samples(meets, first_shade, from, to); }
 #endif
 
 // Pieces first to last of a panel.
@@ -301,11 +296,12 @@ void take_panel(int p, int first, int last) {
   ivec2 meets = one.zw;
   ivec2 passed = two.xy;
   int first_shade = two.z;
-  shared_by_many = two.w < 0;
-  samples = abs(two.w);
-  if (first == 0 && !shared_by_many) {
+  samples = two.w;
+#ifdef WITH_LIT
+  if (first == 0) {
     for (int n = passed.x; n < passed.y; ++n) front += depth_to(indices[n], 1e15);
   }
+#endif
   float to = min(panel_end, end);
   if (!(from < to) || ray_ended(fma(from, albedo_extinction.w, front), most, largest(sum))) return;
   bool empty = meets.x == meets.y;

@@ -434,7 +434,6 @@ struct GaussianPanels::Build {
 
   void run() {
     most_spared = spared();
-    out.shared_ = most_spared > 0 && !a.volumes;
     const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
     const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);

@@ -39,7 +39,8 @@ class GaussianPanels {
     Range active;              // which of met() rays may meet within
     Range passed;              // which were active before and are no more
     std::uint32_t shades = 0;  // the first of its Shades, one a light
-    int samples = 0;           // how many nodes it has; 0: every light has the closed form
+    int samples = 0;  // how many nodes it has: fewer than the algorithm's where it is short, or where many Gaussians share
+                      // in what is seen, so that their errors cancel; 0: every light has the closed form
   };
   // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
   static constexpr std::uint32_t around_light = 1U << 31U;
@@ -54,9 +55,6 @@ class GaussianPanels {
   std::span<const std::uint32_t> indices() const { return indices_; }
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
-  // Many Gaussians share in what is seen, each a little, so that their errors cancel: panels have fewer nodes, though not fewer
-  // than two, and optical depth on the ray is integrated by these, not added up from closed forms.
-  bool shared() const { return shared_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
   static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
@@ -67,7 +65,6 @@ class GaussianPanels {
   std::vector<Panel> panels_;
   std::vector<Shade> shades_;
   std::vector<std::uint32_t> indices_, met_;
-  bool shared_ = false;
 };
 
 }  // namespace airlight
