@@ -1,12 +1,12 @@
 #include "cpu/kernels.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/gaussian_airlight.cpp"
 #include <hwy/foreach_target.h>
 
 #include "common/formulas/float.h"
-#include "common/plan/gaussian_panels.h"
-#include "cpu/gaussian_terms.h"
 #include "cpu/held_images.h"
 #include "cpu/simd.h"
 //
@@ -14,20 +14,13 @@
 //
 #include "cpu/lit_rays.h"
 #include "cpu/medium.h"
+//
+#include "cpu/gaussians_on_ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
 namespace {
-
-// What a ray knows of each Gaussian of the square, behind each other in `scratch`: a vector each. Strength: the extinction at the
-// foot.
-enum : std::ptrdiff_t { foot_at = 0, strength_at = lanes, start_at = 2 * lanes, floats_a_gaussian = 3 * lanes };
-
-struct Local {
-  Real extinction, scattering[3], emission[3];
-  Real depth;  // of Gaussians, from the camera on; without lit parts only what is in front of the panel
-};
 
 // The rays of a vector of pixels on their way through the panels.
 struct Scattering {
@@ -35,12 +28,9 @@ struct Scattering {
   const TileView& view;
   const GaussianPanels& panels;
   std::span<const GaussLegendre> rules;  // of one node and more
-  std::span<const GaussianTerms> terms;
+  GaussiansOnRay gaussians;
   RadianceBound bound;
-  int erf;
-  bool one_albedo, emits;
   const float* tables;
-  float* scratch;
   LitRays lit;
 
   int i = 0;  // the first pixel
@@ -51,12 +41,6 @@ struct Scattering {
                         std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
                         const LitRays& lit_rays);
   HWY_INLINE void begin(int first, Real length);
-  HWY_INLINE Real depth_of(std::uint32_t met, Real t) const;
-  HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
-  template <int n>
-  HWY_INLINE void extinctions(const GaussianPanels::Panel& p, const Real* t, Real* extinction) const;
-  HWY_INLINE void locals(const GaussianPanels::Panel& p, const Real* t, std::size_t count, Local* here) const;
-  HWY_INLINE Real shading(const GaussianPanels::Shade& s, std::size_t k, const Real3& place) const;
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
@@ -78,20 +62,10 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       view(tile_view),
       panels(square),
       rules(quadratures),
-      terms(of_gaussians),
+      gaussians(algorithm, tile_view, square, of_gaussians, static_cast<bool>(lit_rays), floats),
       bound(algorithm),
-      erf(static_cast<int>(algorithm.erf)),
-      one_albedo(true),
-      emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
-      scratch(floats),
-      lit(lit_rays) {
-  for (const std::uint32_t k : panels.met()) {
-    one_albedo = one_albedo && (a.gaussians[k].albedo == a.albedo || !(a.extinction > 0));
-    one_albedo = one_albedo && a.gaussians[k].albedo == a.gaussians[panels.met()[0]].albedo;
-    emits = emits || a.gaussians[k].emission != glm::vec3(0);
-  }
-}
+      lit(lit_rays) {}
 
 HWY_INLINE void Scattering::begin(int first, Real length) {
   i = first;
@@ -101,128 +75,11 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   for (Real& s : sum) s = 0.0;
   most = bound.of(a, d);
   if (lit) lit.begin(i);
-  float* floats = scratch;
-  for (const std::uint32_t k : panels.met()) {
-    const GaussianDensity& g = a.gaussians[k];
-    const float inverse = terms[k].inverse;
-    Real foot, h;
-    perpendicular(d.x, d.y, d.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
-    store(foot, floats + foot_at);
-    store(select(h < g.reach, gaussian_lateral(inverse, h) * g.extinction, 0.0), floats + strength_at);
-    if (lit) store(gaussian_erf(erf, foot * -inverse), floats + start_at);
-    floats += floats_a_gaussian;
-  }
+  gaussians.begin(d);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
   }
-}
-
-// Optical depth of a Gaussian up to t.
-HWY_INLINE Real Scattering::depth_of(std::uint32_t met, Real t) const {
-  const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-  const Real foot = load(floats + foot_at);
-  const GaussianTerms& g = terms[panels.met()[met]];
-  const Real start = lit ? load(floats + start_at) : gaussian_erf(erf, foot * -g.inverse);
-  return gaussian_between(load(floats + strength_at) * g.length, start, gaussian_erf(erf, (t - foot) * g.inverse));
-}
-
-HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
-  Local here;
-  here.extinction = a.extinction;
-  here.depth = front;
-  for (int c = 0; c < 3; ++c) {
-    here.scattering[c] = a.extinction * a.albedo[c];
-    here.emission[c] = a.emission[c];
-  }
-  for (std::uint32_t n = p.active.begin; n < p.active.end; ++n) {
-    const std::uint32_t met = panels.indices()[n];
-    const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-    const Real strength = load(floats + strength_at);
-    if (!any_lane(strength > 0.0)) continue;
-    const GaussianTerms& term = terms[panels.met()[met]];
-    const Real past = t - load(floats + foot_at);
-    if (lit) here.depth += depth_of(met, t);
-    const Real extinction = strength * gaussian_falloff(term.inverse, past * past);
-    here.extinction += extinction;
-    const glm::vec3& albedo = a.gaussians[panels.met()[met]].albedo;
-    for (int c = 0; c < 3 && !one_albedo; ++c) here.scattering[c] = fma(extinction, albedo[c], here.scattering[c]);
-    for (int c = 0; c < 3 && emits; ++c) here.emission[c] = fma(extinction, term.emission[c], here.emission[c]);
-  }
-  if (one_albedo && p.active.begin < p.active.end) {
-    const glm::vec3& albedo = a.gaussians[panels.met()[0]].albedo;
-    for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * albedo[c];
-  }
-  return here;
-}
-
-// The extinction of Gaussians at n places, whose exponential functions wait for each other less than those of n calls.
-template <int n>
-HWY_INLINE void Scattering::extinctions(const GaussianPanels::Panel& p, const Real* t, Real* extinction) const {
-  for (int k = 0; k < n; ++k) extinction[k] = 0.0;
-  for (std::uint32_t at = p.active.begin; at < p.active.end; ++at) {
-    const std::uint32_t met = panels.indices()[at];
-    const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-    const Real strength = load(floats + strength_at);
-    if (!any_lane(strength > 0.0)) continue;
-    const Real foot = load(floats + foot_at);
-    const float inverse = terms[panels.met()[met]].inverse;
-    for (int k = 0; k < n; ++k) {
-      const Real past = t[k] - foot;
-      extinction[k] = fma(strength, gaussian_falloff(inverse, past * past), extinction[k]);
-    }
-  }
-}
-
-// What is at the nodes, where all Gaussians have one albedo and nothing glows.
-HWY_INLINE void Scattering::locals(const GaussianPanels::Panel& p, const Real* t, std::size_t count, Local* here) const {
-  constexpr std::size_t block = 4;
-  const bool any = p.active.begin < p.active.end;
-  const glm::vec3& albedo = any ? a.gaussians[panels.met()[0]].albedo : a.albedo;
-  for (std::size_t n = 0; n < count; n += block) {
-    Real uneven[block];
-    switch (count - n) {
-      case 1:
-        extinctions<1>(p, t + n, uneven);
-        break;
-      case 2:
-        extinctions<2>(p, t + n, uneven);
-        break;
-      case 3:
-        extinctions<3>(p, t + n, uneven);
-        break;
-      default:
-        extinctions<4>(p, t + n, uneven);
-    }
-    for (std::size_t k = n; k < std::min(n + block, count); ++k) {
-      here[k].extinction = uneven[k - n] + a.extinction;
-      here[k].depth = front;
-      for (int c = 0; c < 3; ++c) here[k].scattering[c] = here[k].extinction * albedo[c];
-    }
-  }
-}
-
-// Optical depth of Gaussians between a place and light k.
-HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, std::size_t k, const Real3& place) const {
-  Real depth = 0.0;
-  if (!s.shaded) return depth;
-  if (!a.depths.empty()) return depth_to_light(a.depth_volumes[k], view.floats(a.depths[k]), place);
-  Real length;
-  const Real3 way = toward_light(a.lights[k], place, length);
-  for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
-    const std::uint32_t word = panels.indices()[n], index = word & ~GaussianPanels::around_light;
-    const Real3 e = to_center(a.gaussians[index], place);
-    Real foot, h;
-    perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
-    const Mask met = h < a.gaussians[index].reach;
-    if (!any_lane(met)) continue;
-    const float inverse = terms[index].inverse;
-    const bool whole_way = word == index;  // the light stands beyond it
-    const Real share =
-        whole_way ? gaussian_depth_beyond(erf, inverse, h, -foot) : gaussian_depth(erf, inverse, h, -foot, length - foot);
-    depth = fma(select(met, share, 0.0), terms[index].whole, depth);
-  }
-  return depth;
 }
 
 HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
@@ -239,7 +96,7 @@ HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::siz
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const Light& light = a.lights[k];
-  const Real more = here.depth + shading(shade, k, along({0.0, 0.0, 0.0}, d, t));
+  const Real more = here.depth + gaussians.shading(shade, k, along({0.0, 0.0, 0.0}, d, t));
   Real density;
   if (light.directional) {
     density = directional_density(kind, g, a.extinction, -dot(real3(light.vector), d), t, more);
@@ -265,7 +122,7 @@ HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real we
     const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
     if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
   }
-  if (emits && p.active.begin < p.active.end) glow(t, weight, here);
+  if (gaussians.emits && p.active.begin < p.active.end) glow(t, weight, here);
 }
 
 // From `from` to `to` by the nodes, of which the depth comes, too: then errors of extinction in front and of what it scatters
@@ -277,13 +134,11 @@ HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Re
   Local here[GaussianAirlight::most_samples];
   Real t[GaussianAirlight::most_samples], uneven[GaussianAirlight::most_samples];
   for (std::size_t n = 0; n < count; ++n) t[n] = fma(half, rule.node[n], middle);
-  if (one_albedo && !emits) locals(p, t, count, here);
-  for (std::size_t n = 0; n < count; ++n) {
-    if (!one_albedo || emits) here[n] = local(p, t[n]);
-    uneven[n] = (here[n].extinction - a.extinction) * half;
-  }
+  gaussians.locals(p, t, count, here);
+  for (std::size_t n = 0; n < count; ++n) uneven[n] = (here[n].extinction - a.extinction) * half;
   Real whole = front;
   for (std::size_t n = 0; n < count; ++n) {
+    here[n].depth = front;
     for (std::size_t k = 0; k < count; ++k) here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
     node(p, t[n], half * rule.weight[n], here[n]);
     whole = fma(uneven[n], rule.weight[n], whole);
@@ -297,11 +152,16 @@ HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from
   const GaussLegendre& rule = rule_of(p);
   Local whole[GaussianAirlight::most_samples];
   bool known = false;
+  const auto at = [&](Real t) HWY_ATTR {
+    Local here = gaussians.local(p, t);
+    here.depth += front;
+    return here;
+  };
   const auto nodes = [&](Real x0, Real x1, const Local* held, auto&& use) HWY_ATTR {
     const Real half = max(x1 - x0, 0.0) * 0.5, middle = (x0 + x1) * 0.5;
     for (std::size_t n = 0; n < rule.node.size(); ++n) {
       const Real t = fma(half, rule.node[n], middle);
-      use(n, t, half * rule.weight[n], held ? held[n] : local(p, t));
+      use(n, t, half * rule.weight[n], held ? held[n] : at(t));
     }
   };
   const auto know = [&]() HWY_ATTR {
@@ -320,7 +180,7 @@ HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from
                 HWY_ATTR { scatter(shade, k, t, select(there, weight, 0.0), here); });
     });
   }
-  if (!emits || p.active.begin == p.active.end) return;
+  if (!gaussians.emits || p.active.begin == p.active.end) return;
   know();
   nodes(from, to, whole, [&](std::size_t, Real t, Real weight, const Local& here) HWY_ATTR { glow(t, weight, here); });
 }
@@ -382,7 +242,7 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   for (std::uint32_t n = p.passed.begin; n < p.passed.end && lit; ++n) {
     const std::uint32_t met = panels.indices()[n];
-    front += depth_of(met, 1e15);
+    front += gaussians.depth_of(met, 1e15);
   }
   const Real from = p.begin, to = min(p.end, end);
   const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
@@ -421,7 +281,7 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
 
       Real tau = optical_depth(length, a.extinction);
       for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
-        tau += s.depth_of(met, s.end);
+        tau += s.gaussians.depth_of(met, s.end);
       }
       const Real source = opacity(tau);
       for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
@@ -447,7 +307,7 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
   std::vector<GaussianTerms> terms;
   for (const GaussianDensity& g : a.gaussians) {
     terms.push_back({1 / g.radius, f32::gaussian_whole(1, g.radius).v, f32::gaussian_whole(g.extinction, g.radius).v,
-                     g.emission / g.extinction});
+                     1 / std::max(g.extinction, 1e-37F)});
   }
   AlignedFloats scratch;
   LitScratch lit_scratch;

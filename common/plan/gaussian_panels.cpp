@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/plan/gaussian_shadows.h"
+
 namespace airlight {
 
 namespace {
@@ -17,16 +19,6 @@ constexpr double finest = 4e-6;      // of the distance: shorter panels are not 
 // What finer panels are worth falls with what stands before them: after this many they are taken as they come.
 constexpr std::size_t many_panels = 1024;
 constexpr double sharing[2] = {64, 512};  // so many Gaussians of equal share make up for a node, and for two
-
-// cos(x) for x in 0..pi by its series: the same on every machine, where the C library's is not.
-double cosine(double x) {
-  double term = 1, sum = 1;
-  for (int k = 1; k < 20; ++k) {
-    term *= -x * x / ((2 * k - 1) * (2 * k));
-    sum += term;
-  }
-  return sum;
-}
 
 double squared(double x) { return x * x; }
 
@@ -50,91 +42,7 @@ double sharpness(const Phase& phase) {
   }
 }
 
-struct Sphere {
-  glm::dvec3 center;
-  double radius;
-};
-
-// All that Gaussians reach.
-struct Reach {
-  glm::dvec3 least{1e300}, most{-1e300};
-  double smooth = 1e300;  // [m] over which each is smooth, or too faint to matter
-
-  explicit Reach(const std::vector<GaussianDensity>& gaussians) {
-    for (const GaussianDensity& g : gaussians) {
-      const glm::dvec3 center(g.center), reach(static_cast<double>(g.reach));
-      least = glm::min(least, center - reach);
-      most = glm::max(most, center + reach);
-      smooth = std::min(smooth, smooth_over(g));
-    }
-  }
-  // What takes little may be rough.
-  static double smooth_over(const GaussianDensity& g) {
-    return panel_radii * (static_cast<double>(g.radius) + 0.03 / static_cast<double>(g.extinction));
-  }
-  // Whether some of it may stand between a light and a place of the sphere: it would stand within the sphere's radius of the way
-  // to its centre.
-  bool shades(const Light& light, const Sphere& s) const {
-    const glm::dvec3 way = light.directional ? glm::dvec3(light.vector) : glm::dvec3(light.vector) - s.center;
-    double from = 0, to = light.directional ? 1e300 : 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = least[axis] - s.radius - s.center[axis], high = most[axis] + s.radius - s.center[axis];
-      if (way[axis] == 0) {
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      const double a = low / way[axis], b = high / way[axis];
-      from = std::max(from, std::min(a, b));
-      to = std::min(to, std::max(a, b));
-    }
-    return from <= to;
-  }
-  // The longest panel over which their shadow is smooth: it spreads behind them as the light's rays do.
-  double smooth_in(const Light& light, const Sphere& s) const {
-    if (light.directional) return smooth;
-    const glm::dvec3 position(light.vector);
-    const double nearest = glm::length(s.center - position) - s.radius;
-    return smooth * std::max(1.0, nearest / glm::length(glm::max(position - least, most - position)));
-  }
-};
-
 }  // namespace
-
-GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()), before(node.size() * node.size()) {
-  std::vector<double> at, weights;
-  for (int i = 0; i < n; ++i) {
-    double x = -cosine(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 8; ++iteration) {  // Newton's, on Legendre's polynomial
-      double last = 1, value = x;
-      for (int k = 2; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * value - (k - 1) * last) / k;
-        last = value;
-        value = next;
-      }
-      slope = n * (last - x * value) / (1 - x * x);
-      x -= value / slope;
-    }
-    at.push_back(x);
-    weights.push_back(2 / ((1 - x * x) * slope * slope));
-    node[static_cast<std::size_t>(i)] = static_cast<float>(x);
-    weight[static_cast<std::size_t>(i)] = static_cast<float>(weights.back());
-  }
-  // The polynomial that is 1 at node j and 0 at the others is w_j sum_m (m + 1/2) P_m(x_j) P_m(x), and
-  // int_-1^x P_m = (P_m+1(x) - P_m-1(x)) / (2 m + 1).
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      double there[2] = {1, at[j]}, here[2] = {1, at[i]}, sum = 1 + at[i];
-      for (int m = 1; m < n; ++m) {
-        const double next_here = ((2 * m + 1) * at[i] * here[1] - m * here[0]) / (m + 1);
-        const double next_there = ((2 * m + 1) * at[j] * there[1] - m * there[0]) / (m + 1);
-        sum += there[1] * (next_here - here[0]);
-        here[0] = here[1], here[1] = next_here;
-        there[0] = there[1], there[1] = next_there;
-      }
-      before[i * at.size() + j] = static_cast<float>(0.5 * weights[j] * sum);
-    }
-  }
-}
 
 // The rays of the square: those within an angle of the axis.
 struct GaussianPanels::Cone {
@@ -195,7 +103,7 @@ struct GaussianPanels::Build {
   double sharp;
   bool everywhere;  // something is to be seen also where no Gaussian is
   int most_spared = 0;
-  Reach reach;
+  GaussianReach reach;
   // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
   std::vector<std::uint32_t> stack;
   std::vector<Range> ranges;
@@ -223,60 +131,6 @@ struct GaussianPanels::Build {
     met.push_back({begin, end, cone.least_foot(p), cone.most_foot(p), radius, static_cast<double>(g.extinction), h});
   }
 
-  // All ways from a light to the places of a sphere: a cone about `toward`, a cylinder for a directional light.
-  struct Ways {
-    glm::dvec3 vector, toward;  // from the light to the sphere; from the sphere to a directional light
-    double length = 0, radius = 0, sine = 0, cosine = 1;
-    bool directional, within;  // within: the light may stand in the sphere
-
-    Ways(const Light& light, const Sphere& s)
-        : vector(light.vector), radius(s.radius), directional(light.directional), within(false) {
-      if (directional) {
-        toward = -vector;
-        vector = s.center;
-        return;
-      }
-      toward = s.center - vector;
-      length = glm::length(toward);
-      within = length <= radius * 1.001;
-      if (within) {
-        vector = s.center;
-        return;
-      }
-      toward /= length;
-      sine = radius / length;
-      cosine = std::sqrt(1 - sine * sine);
-    }
-    // Whether a Gaussian may shade some place of the sphere from the light.
-    bool meet(const GaussianDensity& g) const {
-      const glm::dvec3 e = glm::dvec3(g.center) - vector;
-      const double reach = static_cast<double>(g.reach) * (1 + 1e-6), all = glm::dot(e, e);
-      if (within) return all < squared(reach + radius);
-      const double along = glm::dot(e, toward);
-      if (directional) return along > -(reach + radius) && all - along * along < squared(reach + radius);
-      if (along <= -reach || along >= length + radius + reach) return false;
-      return std::max(0.0, all - along * along) * squared(cosine) < squared(std::max(0.0, along) * sine + reach);
-    }
-    // Whether a Gaussian may have something of such a way behind the light.
-    bool behind(const GaussianDensity& g) const {
-      if (directional) return false;
-      if (within) return true;
-      const glm::dvec3 e = glm::dvec3(g.center) - vector;
-      const double all = glm::dot(e, e), along = glm::dot(e, toward);
-      if (all < squared(static_cast<double>(g.reach)) || along <= 0) return true;
-      return squared(along * cosine) <= std::max(0.0, all - along * along) * squared(sine);
-    }
-    // The longest panel over which the shadow of a Gaussian is smooth.
-    double smooth(const GaussianDensity& g, const Light& light) const {
-      double grown = 1;
-      if (!directional && length > radius) {
-        const double distance = glm::length(glm::dvec3(g.center - light.vector));
-        grown = std::max(1.0, (length - radius) / std::max(distance, static_cast<double>(g.radius)));
-      }
-      return Reach::smooth_over(g) * grown;
-    }
-  };
-
   // Cuts in which a light's peak has to be taken apart; 0: none.
   std::uint32_t levels(const Light& light, double begin, double end) const {
     if (light.directional) return 0;
@@ -297,7 +151,7 @@ struct GaussianPanels::Build {
         ranges.push_back({0, before.end > 0 && reach.shades(a.lights[k], s) ? 1U : 0U});
         continue;
       }
-      const Ways ways(a.lights[k], s);
+      const LightWays ways(a.lights[k], s);
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = before.begin; i < before.end; ++i) {
         const std::uint32_t index = stack[i];
@@ -311,10 +165,10 @@ struct GaussianPanels::Build {
   double smooth_shadow(std::size_t light, Range shading, const Sphere& s) const {
     double longest = 1e300;
     if (shading.begin == shading.end) return longest;
-    if (!a.depths.empty()) return reach.smooth_in(a.lights[light], s);
-    const Ways ways(a.lights[light], s);
+    if (!a.depths.empty()) return panel_radii * reach.smooth(a.lights[light], s);
+    const LightWays ways(a.lights[light], s);
     for (std::uint32_t i = shading.begin; i < shading.end; ++i)
-      longest = std::min(longest, ways.smooth(a.gaussians[stack[i]], a.lights[light]));
+      longest = std::min(longest, panel_radii * ways.smooth(a.gaussians[stack[i]], a.lights[light]));
     return longest;
   }
 
@@ -388,7 +242,7 @@ struct GaussianPanels::Build {
       const Range list = ranges[shading + k];
       s.shaded = list.begin < list.end;
       s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
-      const Ways ways(a.lights[k], sphere);
+      const LightWays ways(a.lights[k], sphere);
       for (std::uint32_t i = list.begin; i < list.end && a.depths.empty(); ++i) {
         out.indices_.push_back(stack[i] | (ways.behind(a.gaussians[stack[i]]) ? around_light : 0));
       }

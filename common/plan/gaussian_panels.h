@@ -9,17 +9,11 @@
 #include <vector>
 
 #include "common/algorithms/gaussian_airlight.h"
+#include "common/plan/gauss_legendre.h"
 
 namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square
-
-// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16. What values at the nodes have in front of node
-// i of them is the sum of before[i n + j] times value j.
-struct GaussLegendre {
-  explicit GaussLegendre(int n);
-  std::vector<float> node, weight, before;
-};
 
 // The panels of one square, in order along the rays.
 class GaussianPanels {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/plan/gaussian_shadows.h"
 #include "common/plan/light_volumes.h"
 
 namespace airlight {
@@ -21,13 +22,11 @@ enum : std::uint32_t { volumes_id = FramePlan::first_own_id, surfaces_id, inject
 constexpr std::size_t few_gaussians = 16;  // that many stand in a light's way faster than a volume of their depths is made
 constexpr double most_cells = 128;         // along an edge of a volume that nobody asked for
 constexpr int finest_cells = 512;
-constexpr double faint_depth = 0.03;  // what takes no more may be smaller than a cell
 
 // Cells along the longest edge of the box about the Gaussians, so many in the radius of the smallest that matters.
 double cells_for(const Scene& scene, const std::vector<GaussianDensity>& gaussians, double cells_a_radius) {
   double radius = 1e300;
-  for (const GaussianDensity& g : gaussians)
-    radius = std::min(radius, static_cast<double>(g.radius) + faint_depth / static_cast<double>(g.extinction));
+  for (const GaussianDensity& g : gaussians) radius = std::min(radius, smooth_radius(g));
   const double edge = 2 * medium_box(scene, 2).cell;
   return std::ceil(cells_a_radius * edge / radius);
 }
@@ -112,19 +111,23 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
 }
 
 // The error of n nodes, fitted to tests/truth/gaussian_airlight.cpp on the safe side: it falls by 3.7 from one to the next, down
-// to that of single precision. Time: thread nanoseconds a pixel; of many Gaussians a ray meets few.
+// to that of single precision; and that of volumes. Time: thread nanoseconds a pixel; of many Gaussians a ray meets few.
 Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
   const double n = knobs.number("samples"), lights = static_cast<double>(scene.lights.size());
   const double gaussians = static_cast<double>(gaussians_of(scene).size());
-  const double coarseness = 64 / knobs.number("table_nodes");
+  const double coarseness = 64 / knobs.number("table_nodes"), cells = knobs.number("light_cells");
+  const std::string_view path = knobs.choice("light_path");
+  const bool volumes = gaussians > 0 && (path == "volume" || (path == "auto" && gaussians > static_cast<double>(few_gaussians)));
   double error = 1e-4;
   if (gaussians > 0) error += 4 * std::exp(-1.3 * n);
   if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
+  if (volumes) error += 0.11 / (cells * cells);
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75);
   const double pixels = static_cast<double>(extent.width) * extent.height;
-  const double nanoseconds =
-      surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * (25 * lights + n * met * (8 + 10 * lights));
+  const double of_a_ray = volumes ? 1.3 * n * met + 150 * lights : n * met * (3 + 4 * lights);
+  double nanoseconds = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * (25 * lights + of_a_ray);
+  if (volumes) nanoseconds += 5e6 * lights * std::pow(cells / 3, 3);
   return {error, 1e-9 * nanoseconds / threads};
 }
 
@@ -160,7 +163,7 @@ Technique gaussian_airlight() {
        .most = 0,
        .choices = {"auto", "exact", "volume"},
        .meaning = "optical depths from each node to each light: closed forms, or looked up in a volume of each light's; auto: "
-                  "volumes where more than 16 Gaussians are not too small for them",
+                  "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge",
        .sweep = {"exact", "volume"},
        .baselines = {}},
       {.name = "light_cells",
