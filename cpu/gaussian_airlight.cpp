@@ -35,7 +35,7 @@ struct Scattering {
 
   int i = 0;  // the first pixel
   Real3 d;
-  Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with lit parts, of those that are behind
+  Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with shadow volumes, of those that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
                         std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
@@ -62,7 +62,7 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       view(tile_view),
       panels(square),
       rules(quadratures),
-      gaussians(algorithm, tile_view, square, of_gaussians, static_cast<bool>(lit_rays), floats),
+      gaussians(algorithm, tile_view, square, of_gaussians, static_cast<bool>(algorithm.volumes), floats),
       bound(algorithm),
       tables(tile_view.floats(algorithm.tables)),
       lit(lit_rays) {}
@@ -125,8 +125,8 @@ HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real we
   if (gaussians.emits && p.active.begin < p.active.end) glow(t, weight, here);
 }
 
-// From `from` to `to` by the nodes, of which the depth comes, too: then errors of extinction in front and of what it scatters
-// make up for each other. Nothing where to <= from.
+// From `from` to `to` by the nodes, of which the depth comes, too, unless surfaces may throw a shadow: then errors of extinction
+// in front and of what it scatters make up for each other. Nothing where to <= from.
 HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
   const GaussLegendre& rule = rule_of(p);
   const std::size_t count = rule.node.size();
@@ -138,12 +138,13 @@ HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Re
   for (std::size_t n = 0; n < count; ++n) uneven[n] = (here[n].extinction - a.extinction) * half;
   Real whole = front;
   for (std::size_t n = 0; n < count; ++n) {
-    here[n].depth = front;
-    for (std::size_t k = 0; k < count; ++k) here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
+    here[n].depth += front;
+    for (std::size_t k = 0; k < count && !gaussians.with_depths; ++k)
+      here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
     node(p, t[n], half * rule.weight[n], here[n]);
     whole = fma(uneven[n], rule.weight[n], whole);
   }
-  front = whole;
+  if (!gaussians.with_depths) front = whole;
 }
 
 // The same where lights reach only parts of rays: each part has nodes of its own, and depths are closed forms. A light that
@@ -240,7 +241,7 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 }
 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
-  for (std::uint32_t n = p.passed.begin; n < p.passed.end && lit; ++n) {
+  for (std::uint32_t n = p.passed.begin; n < p.passed.end && gaussians.with_depths; ++n) {
     const std::uint32_t met = panels.indices()[n];
     front += gaussians.depth_of(met, 1e15);
   }

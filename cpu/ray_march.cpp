@@ -40,6 +40,7 @@ struct March {
 
   int i = 0;             // the first pixel
   bool follows = false;  // this step begins where that before ended, as the scratch holds
+  bool uneven = false;   // this stretch has Gaussians and grid
   Real3 d;
   Real front, within;  // optical depth so far, and that of Gaussians and grid alone
   Real most;           // radiance that the whole ray can have, were it seen through nothing
@@ -124,8 +125,8 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
     const glm::vec3 &first = a.source_first, scale = 1.0F / a.source_spacing;
     const Real x = (p.x - first.x) * scale.x, y = (p.y - first.y) * scale.y, z = (p.z - first.z) * scale.z;
     for (int c = 0; c < 3; ++c) {
-      const Real uneven = max(here.scattering[c] - a.extinction * a.albedo[c], 0.0);
-      here.emission[c] = fma(uneven, source_in_volume(sources, c, x, y, z), here.emission[c]);
+      const Real scattered = max(here.scattering[c] - a.extinction * a.albedo[c], 0.0);
+      here.emission[c] = fma(scattered, source_in_volume(sources, c, x, y, z), here.emission[c]);
     }
   }
   return here;
@@ -137,9 +138,11 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
   const Light& light = a.lights[k];
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
-  Real at, weight, beside = 0.0, phase;
+  Real at, weight, beside = 0.0, phase, sampled;
+  const Local* there = &here;
+  Local nearer;
   if (light.directional) {
-    at = (from + to) * 0.5;
+    sampled = at = (from + to) * 0.5;
     weight = to - from;
     phase = phase_value(kind, g, -dot(real3(light.vector), d));
   } else {
@@ -153,15 +156,25 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     step_means(from, to, ra, rb, foot, h, weight, at, r);
     phase = step_phase(kind, g, before, after, ra, rb, h);
     beside = r * a.extinction;
+    sampled = at;
+    // Beside a lamp the medium is looked up where most of the light is scattered, and its shadow where the lamp is as far as on
+    // the mean.
+    const Mask near = near_light(from, to, ra, rb);
+    if (uneven && any_lane(near && going)) {
+      sampled = select(near, place_at_distance(at, r, foot, h), at);
+      nearer = local(along({0.0, 0.0, 0.0}, d, at), true);
+      for (int c = 0; c < 3; ++c) nearer.scattering[c] = select(near, nearer.scattering[c], here.scattering[c]);
+      there = &nearer;
+    }
   }
   if (medium.any()) {
-    beside += depth_to(medium, k, light, along({0.0, 0.0, 0.0}, d, at), going);
+    beside += depth_to(medium, k, light, along({0.0, 0.0, 0.0}, d, sampled), going);
   }
   const Real share = (at - from) / max(to - from, 1e-30);
   const Mask scatters = lit ? going && (from < to) : going;
   const Real once = phase * weight * step_transmittance(before_it, tau, share, beside);
   for (int c = 0; c < 3; ++c) {
-    const Real light_of_step = select(scatters, here.scattering[c] * once * light.power[c], 0.0);
+    const Real light_of_step = select(scatters, there->scattering[c] * once * light.power[c], 0.0);
     sum[c] += light_of_step;
     if (!a.per_light) continue;
     float* plane = view.plane(a.per_light, c, static_cast<int>(k)) + i;
@@ -183,6 +196,7 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
   const float n = static_cast<float>(a.steps);
   Real from = begin;
   follows = false;
+  uneven = all;
   for (int k = 0; k < a.steps; ++k) {
     going = marching && !ended();
     if (!any_lane(going) && !(whole && all)) break;

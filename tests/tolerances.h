@@ -47,6 +47,7 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_gaussians_fine", 0.002, "the same with eight nodes"},
     {"rendered_optical_depth", 3e-6,
      "of a way, beside the lines through the Gaussians' centres: single precision, and what their reach leaves out"},
+    {"depths_of_the_nodes", 0.002, "relative RMSE: depth on the ray from four nodes a panel beside closed forms"},
     {"truth_light_volumes", 0.015,
      "eight nodes, lights looked up in volumes of three and six cells a radius: 1.2 % through optical depths of five and more"},
     {"truth_propagation", 0.015,

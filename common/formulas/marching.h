@@ -29,21 +29,32 @@ FORMULA real beyond_foot(real past, real r, real h) {
   return select(past > 0.0, r + past, h * h / (r + abs(past)));
 }
 
+// Whether a step is not short beside its distance from the light.
+FORMULA mask near_light(real a, real b, real ra, real rb) {
+  return b - a > 0.1 * min(ra, rb);
+}
+
 // Means over the step, weighed like that: of the place t and of the light's distance r. `angle` is step_angle(). A step short beside its distance takes
 // those where the angle is halved, whose error is 1e-3 of the step; the logarithms of the others would lose their digits there.
 FORMULA void step_means(real a, real b, real ra, real rb, real foot, real h, real angle, OUT(real) t, OUT(real) r) {
   t = (a * rb + b * ra) / (ra + rb);
   real past = t - foot;
   r = sqrt(fma(past, past, h * h));
-  mask near_light = b - a > 0.1 * min(ra, rb);
-  if (any_lane(near_light)) {
+  mask near = near_light(a, b, ra, rb);
+  if (any_lane(near)) {
     real to_a = a - foot;
     real to_b = b - foot;
     real scale = 1.0 / max(angle, 1e-30);
     real inverse = log_(beyond_foot(to_b, rb, h) / beyond_foot(to_a, ra, h));  // int dt / r
-    t = select(near_light, min(max(fma(log_(rb / ra), scale, foot), a), b), t);
-    r = select(near_light, max(inverse * scale, h), r);
+    t = select(near, min(max(fma(log_(rb / ra), scale, foot), a), b), t);
+    r = select(near, max(inverse * scale, h), r);
   }
+}
+
+// Where on the ray the light is that far away, on the side of t: what lies before it on its way is what the whole step has on the mean.
+FORMULA real place_at_distance(real t, real r, real foot, real h) {
+  real past = sqrt(max((r - h) * (r + h), 0.0));
+  return foot + select(t < foot, -past, past);
 }
 
 // The direction halfway between two, given by sine and cosine of their angles in -pi/2..pi/2.
