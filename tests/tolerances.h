@@ -22,6 +22,7 @@ inline constexpr Tolerance tolerances[] = {
     {"phase_integral", 5e-6, "of a phase function over the sphere; the float mu near a peak of |g| = 0.99 is worth 3e-6"},
     {"phase_value", 2.5e-6,
      "relative, float against double: eighth and 32nd powers of 1 + mu and quotients at a peak magnify roundings"},
+    {"exp2_ulp", 2.5, "ULP of exp2_: its polynomial of five multiplications, 1 at 0, is 9.1e-8 off, its rounding comes to that"},
     {"exp_ulp", 2.5, "ULP of exp_: rounding of its polynomial and of the reduced argument"},
     {"log_ulp", 2.5, "ULP of log_ away from 1, where its value is small in absolute terms"},
     {"parity_off_edges", 0.0002,
@@ -44,6 +45,11 @@ inline constexpr Tolerance tolerances[] = {
      "lamp stands in a Gaussian little larger than one of 32 steps"},
     {"truth_gaussians", 0.02, "relative RMSE of gaussian-airlight by default, four nodes a panel: what the knob promises"},
     {"truth_gaussians_fine", 0.002, "the same with eight nodes"},
+    {"rendered_optical_depth", 3e-6,
+     "of a way, beside the lines through the Gaussians' centres: single precision, and what their reach leaves out"},
+    {"depths_of_the_nodes", 0.002, "relative RMSE: depth on the ray from four nodes a panel beside closed forms"},
+    {"truth_light_volumes", 0.015,
+     "eight nodes, lights looked up in volumes of three and six cells a radius: 1.2 % through optical depths of five and more"},
     {"truth_propagation", 0.015,
      "relative RMSE of opacity-propagation by default: steps that are not short beside the free path, and lamps nearer to what "
      "they "

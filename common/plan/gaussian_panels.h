@@ -9,16 +9,11 @@
 #include <vector>
 
 #include "common/algorithms/gaussian_airlight.h"
+#include "common/plan/gauss_legendre.h"
 
 namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square
-
-// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16.
-struct GaussLegendre {
-  explicit GaussLegendre(int n);
-  std::vector<float> node, weight;
-};
 
 // The panels of one square, in order along the rays.
 class GaussianPanels {
@@ -28,7 +23,8 @@ class GaussianPanels {
   };
   // A light, seen from one panel.
   struct Shade {
-    Range shading;  // Gaussians that may stand between it and the panel
+    Range shading;        // Gaussians that may stand between it and the panel; empty where volumes hold the depths
+    bool shaded = false;  // something may stand there
     std::uint32_t levels =
         0;  // > 0: it is so near that the panel is cut at its foot and at length / cut_ratio^1..levels to both sides
   };
@@ -37,7 +33,8 @@ class GaussianPanels {
     Range active;              // which of met() rays may meet within
     Range passed;              // which were active before and are no more
     std::uint32_t shades = 0;  // the first of its Shades, one a light
-    bool sampled = false;      // it has nodes: not every light has the closed form
+    int samples = 0;  // how many nodes it has: fewer than the algorithm's where it is short, or where many Gaussians share
+                      // in what is seen, so that their errors cancel; 0: every light has the closed form
   };
   // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
   static constexpr std::uint32_t around_light = 1U << 31U;
@@ -53,9 +50,7 @@ class GaussianPanels {
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
-  static bool closed_form(const Panel& p, const Shade& s) {
-    return p.active.begin == p.active.end && s.shading.begin == s.shading.end;
-  }
+  static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
  private:
   struct Cone;

@@ -24,6 +24,7 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
 
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
   if (formula == 0) r[0] = exp_(a[0]);
+  if (formula == 47) r[0] = exp2_(a[0]);
   if (formula == 1) r[0] = log_(a[0]);
   if (formula == 2) r[0] = phase_value(kind, g, a[0]);
   if (formula == 3) r[0] = point_airlight(t, kind, g, a[0], a[1], a[2], a[3], a[4]);
@@ -75,7 +76,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 31) {
     real ra = sqrt(fma(a[0] - a[2], a[0] - a[2], a[3] * a[3]));
     real rb = sqrt(fma(a[1] - a[2], a[1] - a[2], a[3] * a[3]));
-    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3]);
+    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3], 1.0 / a[3]);
     step_means(a[0], a[1], ra, rb, a[2], a[3], r[0], r[1], r[2]);
   }
   if (formula == 34) {

@@ -68,6 +68,7 @@ enum class Formula : int {
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
   link_shares = 45,         // depth, all -> lost, given, kept
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
+  exp2 = 47,
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
