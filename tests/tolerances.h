@@ -64,6 +64,8 @@ inline constexpr Tolerance tolerances[] = {
      "truth_off_edges may leave out"},
     {"truth_stored", 1e-6,
      "of the image's mean, beyond rounding to float: the reference asks for 1e-9 of a pixel, C libraries differ in a last digit"},
+    {"indirect_open", 2e-5, "relative: exact indirect light asked for to 1e-5, and the unbounded one's fixed rule, good to 1e-5"},
+    {"indirect_plain_sum", 1e-2, "relative: twice 40 000 places in space, most of them shadowed or hidden; a million leave 7e-4"},
     {"riemann_sum", 1e-8, "relative, beyond half a step at each shadow boundary: rounding of sums of a million terms"},
     {"depth_lookup", 4e-6, "beside the largest value: a quotient and a difference before linear lookups with slopes of 1 a node"},
     {"injected_mass", 4e-6,

@@ -52,7 +52,8 @@ struct BruteForce {
     const Camera& camera = scene.camera;
     const glm::dvec3 forward = glm::normalize(camera.look_at - camera.position);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
-    const double tan = std::tan(camera.vertical_fov / 2 * std::numbers::pi / 180), aspect = static_cast<double>(extent.width) / extent.height;
+    const double tan = std::tan(camera.vertical_fov / 2 * std::numbers::pi / 180),
+                 aspect = static_cast<double>(extent.width) / extent.height;
     return glm::normalize(forward + (2 * at.x / extent.width - 1) * tan * aspect * right +
                           (1 - 2 * at.y / extent.height) * tan * up);
   }
