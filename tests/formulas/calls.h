@@ -93,5 +93,9 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 44) r[0] = depth_beside(kind, a[0], a[1], a[2]);
   if (formula == 45) link_shares(a[0], a[1], r[0], r[1], r[2]);
   if (formula == 46) r[0] = source_in_volume(t, kind, a[0], a[1], a[2]);
+  if (formula == 47) {
+    r[0] = surface_airlight_point(t, a[0], a[1]);
+    r[1] = surface_airlight_directional(t, a[1]);
+  }
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

@@ -63,7 +63,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
   const Extent extent = extent_for(scene);
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, true}, true, threads, progress);
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, Indirect::unbounded}, true, threads, progress);
   std::printf("%zu Gaussians, %dx%d, truth claims %.1e\n", scene.medium.gaussians.size(), extent.width, extent.height,
               truth.error);
   EXPECT_FALSE(!(truth.error <= 1e-4));

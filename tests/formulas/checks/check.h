@@ -67,6 +67,7 @@ enum class Formula : int {
   injected_gaussian = 43,   // inverse radius, offset, cell
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
   link_shares = 45,         // depth, all -> lost, given, kept
+  surface_airlight = 47,    // lambda, s -> of a point light, of a directional one; the table is one of surface_airlight_tables()
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
   exp2 = 47,
 };
@@ -122,6 +123,7 @@ void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
+void add_surface_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector
 // instructions.
