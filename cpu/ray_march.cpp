@@ -159,7 +159,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     sampled = at;
     // Beside a lamp the medium is looked up where most of the light is scattered, and its shadow where the lamp is as far as on
     // the mean.
-    const Mask near = near_light(from, to, ra, rb);
+    const Mask near = near_light(from, to, ra, rb) && (here.extinction > 0.0);
     if (uneven && any_lane(near && going)) {
       sampled = select(near, place_at_distance(at, r, foot, h), at);
       nearer = local(along({0.0, 0.0, 0.0}, d, at), true);

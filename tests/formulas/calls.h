@@ -24,7 +24,7 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
 
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
   if (formula == 0) r[0] = exp_(a[0]);
-  if (formula == 47) r[0] = exp2_(a[0]);
+  if (formula == 48) r[0] = exp2_(a[0]);
   if (formula == 1) r[0] = log_(a[0]);
   if (formula == 2) r[0] = phase_value(kind, g, a[0]);
   if (formula == 3) r[0] = point_airlight(t, kind, g, a[0], a[1], a[2], a[3], a[4]);

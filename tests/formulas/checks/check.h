@@ -69,7 +69,7 @@ enum class Formula : int {
   link_shares = 45,         // depth, all -> lost, given, kept
   surface_airlight = 47,    // lambda, s -> of a point light, of a directional one; the table is one of surface_airlight_tables()
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
-  exp2 = 47,
+  exp2 = 48,                 // x
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
