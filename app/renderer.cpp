@@ -1,15 +1,18 @@
 #include <algorithm>
 #include <cfenv>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <thread>
 
 #include "app/airlight.h"
 #include "app/supersample.h"
+#include "common/plan/shadow_quads.h"
 #include "common/reference/reference.h"
 #include "common/spelling.h"
 #include "common/techniques/choose.h"
 #include "cpu/backend.h"
+#include "cpu/tile.h"
 #include "gpu/backend.h"
 
 namespace airlight {
@@ -234,6 +237,31 @@ std::pair<RenderSettings, std::string> chosen_for_goal(const Scene& scene, const
   return {settings, choice.text()};
 }
 
+namespace {
+
+// What of the frame the CPU computes without asking for each pixel what the lights reach; empty where the plan has no shadow
+// planes.
+std::string tiles_without_planes(const Plan& plan) {
+  for (const Step& step : plan.steps) {
+    const auto* planes = std::get_if<ShadowPlanes>(&step.what);
+    if (!planes) continue;
+    const auto upload = std::find_if(plan.uploads.begin(), plan.uploads.end(),
+                                     [&](const Plan::Upload& u) { return u.buffer.id == planes->volumes.id; });
+    if (upload == plan.uploads.end()) throw std::logic_error("shadow planes without volumes");
+    const std::vector<std::byte> volumes = upload->make();
+    const TileCount tiles = count_tiles(planes->view, {volumes, planes->lights.size()}, tile_side);
+    if (tiles.without_planes == 0) return "";
+    char text[160];
+    std::snprintf(text, sizeof text, "  shadow planes in %zu of %zu tiles of %d x %d pixels (%.0f %%): none touches them\n",
+                  tiles.without_planes, tiles.all, tile_side, tile_side,
+                  100 * static_cast<double>(tiles.without_planes) / static_cast<double>(tiles.all));
+    return text;
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string explain(const Scene& scene, const RenderSettings& asked) {
   const auto [settings, chosen] = chosen_for_goal(scene, asked, {});
   const Technique& technique = chosen_technique(scene, settings);
@@ -248,8 +276,10 @@ std::string explain(const Scene& scene, const RenderSettings& asked) {
   for (const Step& step : plan.steps) {
     text += "  " + std::to_string(++number) + ". " + std::string(name_of(step.what)) + ": " + std::string(step.why) + "\n";
   }
-  if (!plan.skips.empty()) text += "left out\n";
+  const std::string tiles = tiles_without_planes(plan);
+  if (!plan.skips.empty() || !tiles.empty()) text += "left out\n";
   for (const Plan::Skip& skip : plan.skips) text += "  " + skip.what + ": " + skip.why + "\n";
+  text += tiles;
   return text;
 }
 

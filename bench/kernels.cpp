@@ -1,4 +1,4 @@
-// Every parity case as a benchmark, at 800 x 600, on each backend and SIMD target: warm runs, inputs renamed so that nothing is
+// Every parity case as a benchmark, at 400 x 300, on each backend and SIMD target: warm runs, inputs renamed so that nothing is
 // reused. Cases of one algorithm stand side by side: the ratio of two rows of one run is the figure to quote.
 #include <benchmark/benchmark.h>
 
@@ -14,7 +14,7 @@ namespace airlight {
 
 namespace {
 
-constexpr Extent extent{800, 600};
+constexpr Extent extent{400, 300};
 
 // Makes the case's steps stale without copying anything large: one input under a new name, or, where they read none, their
 // results.

@@ -77,7 +77,7 @@ def kernels(out):
     for case, times in cases.items():
         row = [case] + [short(times[c]) if c in times else "" for c in columns]
         rows.append(row + [short(times["gl"] / times[compare]) if "gl" in times and compare in times else ""])
-    return table(["800 x 600 [ms]"] + columns + ["gl / " + compare], rows)
+    return table(["400 x 300 [ms]"] + columns + ["gl / " + compare], rows)
 
 
 def startup(out):
@@ -115,6 +115,10 @@ def sampled(out):
 
 def propagation(out):
     return "```\n" + "\n".join(lines_of(os.path.join(out, "propagation.txt"))).strip() + "\n```"
+
+
+def gaussians(out):
+    return "```\n" + "\n".join(lines_of(os.path.join(out, "gaussians.txt"))).strip() + "\n```"
 
 
 def erf(out):
@@ -202,7 +206,8 @@ def main():
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
               "shadows": (shadows, "shadows.txt"),
-              "propagation": (propagation, "propagation.txt"), "sampled": (sampled, "sampled.txt"), "erf": (erf, "erf.json")}
+              "propagation": (propagation, "propagation.txt"), "sampled": (sampled, "sampled.txt"),
+              "gaussians": (gaussians, "gaussians.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):

@@ -72,7 +72,7 @@ class Flicker {
 void against_brute_force(const std::string& path) {
   const Scene scene = load_scene(path);
   NoProgress progress;
-  const ReferenceFrame truth = reference_frame(scene, small, {1e-6, true, false}, true, threads, progress);
+  const ReferenceFrame truth = reference_frame(scene, small, {1e-6, true, Indirect::off}, true, threads, progress);
   struct Row {
     std::string name;
     double error;

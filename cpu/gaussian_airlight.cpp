@@ -1,12 +1,12 @@
 #include "cpu/kernels.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/gaussian_airlight.cpp"
 #include <hwy/foreach_target.h>
 
 #include "common/formulas/float.h"
-#include "common/plan/gaussian_panels.h"
-#include "cpu/gaussian_terms.h"
 #include "cpu/held_images.h"
 #include "cpu/simd.h"
 //
@@ -14,49 +14,41 @@
 //
 #include "cpu/lit_rays.h"
 #include "cpu/medium.h"
+//
+#include "cpu/gaussians_on_ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
-// What a ray knows of each Gaussian of the square, behind each other in `scratch`: a vector each.
-enum : std::ptrdiff_t { foot_at = 0, lateral_at = lanes, start_at = 2 * lanes, floats_a_gaussian = 3 * lanes };
-
-struct Local {
-  Real extinction, scattering[3], emission[3];
-  Real depth;  // of Gaussians, from the camera on
-};
-
 // The rays of a vector of pixels on their way through the panels.
 struct Scattering {
   const GaussianAirlight& a;
   const TileView& view;
   const GaussianPanels& panels;
-  const GaussLegendre& rule;
-  std::span<const GaussianTerms> terms;
+  std::span<const GaussLegendre> rules;  // of one node and more
+  GaussiansOnRay gaussians;
   RadianceBound bound;
-  int erf;
-  bool one_albedo, emits;
   const float* tables;
-  float* scratch;
   LitRays lit;
 
   int i = 0;  // the first pixel
   Real3 d;
-  Real end, front, most, sum[3];  // front: optical depth of the Gaussians that are behind
+  Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with shadow volumes, of those that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                        const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
+                        std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
                         const LitRays& lit_rays);
   HWY_INLINE void begin(int first, Real length);
-  HWY_INLINE Real share_to(std::uint32_t met, Real t) const;
-  HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
-  HWY_INLINE Real shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const;
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
+  HWY_INLINE void node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here);
   HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_INLINE const GaussLegendre& rule_of(const GaussianPanels::Panel& p) const {
+    return rules[static_cast<std::size_t>(p.samples - 1)];
+  }
   HWY_INLINE void sample_lit(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
   HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
@@ -64,26 +56,16 @@ struct Scattering {
 };
 
 HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
-                                  const GaussLegendre& quadrature, std::span<const GaussianTerms> of_gaussians, float* floats,
-                                  const LitRays& lit_rays)
+                                  std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians,
+                                  float* floats, const LitRays& lit_rays)
     : a(algorithm),
       view(tile_view),
       panels(square),
-      rule(quadrature),
-      terms(of_gaussians),
+      rules(quadratures),
+      gaussians(algorithm, tile_view, square, of_gaussians, static_cast<bool>(algorithm.volumes), floats),
       bound(algorithm),
-      erf(static_cast<int>(algorithm.erf)),
-      one_albedo(true),
-      emits(algorithm.emission != glm::vec3(0)),
       tables(tile_view.floats(algorithm.tables)),
-      scratch(floats),
-      lit(lit_rays) {
-  for (const std::uint32_t k : panels.met()) {
-    one_albedo = one_albedo && (a.gaussians[k].albedo == a.albedo || !(a.extinction > 0));
-    one_albedo = one_albedo && a.gaussians[k].albedo == a.gaussians[panels.met()[0]].albedo;
-    emits = emits || a.gaussians[k].emission != glm::vec3(0);
-  }
-}
+      lit(lit_rays) {}
 
 HWY_INLINE void Scattering::begin(int first, Real length) {
   i = first;
@@ -93,84 +75,11 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   for (Real& s : sum) s = 0.0;
   most = bound.of(a, d);
   if (lit) lit.begin(i);
-  float* floats = scratch;
-  for (const std::uint32_t k : panels.met()) {
-    const GaussianDensity& g = a.gaussians[k];
-    const float inverse = terms[k].inverse;
-    Real foot, h;
-    const Real3 way = a.noise.amplitude > 0 ? bent_toward(a.noise, d, g) : d;
-    perpendicular(way.x, way.y, way.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
-    store(foot, floats + foot_at);
-    store(select(h < g.reach, gaussian_lateral(inverse, h), 0.0), floats + lateral_at);
-    store(gaussian_erf(erf, foot * -inverse), floats + start_at);
-    floats += floats_a_gaussian;
-  }
+  gaussians.begin(d);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
   }
-}
-
-// Optical depth of a Gaussian up to t, beside that of the line through its centre.
-HWY_INLINE Real Scattering::share_to(std::uint32_t met, Real t) const {
-  const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-  const Real u = (t - load(floats + foot_at)) * terms[panels.met()[met]].inverse;
-  return gaussian_between(load(floats + lateral_at), load(floats + start_at), gaussian_erf(erf, u));
-}
-
-HWY_INLINE Local Scattering::local(const GaussianPanels::Panel& p, Real t) const {
-  Local here;
-  here.extinction = a.extinction;
-  here.depth = front;
-  for (int c = 0; c < 3; ++c) {
-    here.scattering[c] = a.extinction * a.albedo[c];
-    here.emission[c] = a.emission[c];
-  }
-  for (std::uint32_t n = p.active.begin; n < p.active.end; ++n) {
-    const std::uint32_t met = panels.indices()[n];
-    const GaussianDensity& g = a.gaussians[panels.met()[met]];
-    const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-    if (!any_lane(load(floats + lateral_at) > 0.0)) continue;
-    const GaussianTerms& term = terms[panels.met()[met]];
-    const Real past = t - load(floats + foot_at);
-    here.depth = fma(share_to(met, t), term.whole, here.depth);
-    const Real falloff = load(floats + lateral_at) * gaussian_falloff(term.inverse, past * past);
-    here.extinction = fma(falloff, g.extinction, here.extinction);
-    if (!one_albedo) {
-      const Real extinction = falloff * g.extinction;
-      for (int c = 0; c < 3; ++c) here.scattering[c] = fma(extinction, g.albedo[c], here.scattering[c]);
-    }
-    if (emits) {
-      for (int c = 0; c < 3; ++c) here.emission[c] = fma(falloff, g.emission[c], here.emission[c]);
-    }
-  }
-  if (one_albedo && p.active.begin < p.active.end) {
-    const glm::vec3& albedo = a.gaussians[panels.met()[0]].albedo;
-    for (int c = 0; c < 3; ++c) here.scattering[c] = here.extinction * albedo[c];
-  }
-  return here;
-}
-
-// Optical depth of Gaussians between a place and a light.
-HWY_INLINE Real Scattering::shading(const GaussianPanels::Shade& s, const Light& light, const Real3& place) const {
-  Real depth = 0.0;
-  if (s.shading.begin == s.shading.end) return depth;
-  Real length;
-  const Real3 way = toward_light(light, place, length);
-  for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
-    const std::uint32_t word = panels.indices()[n], index = word & ~GaussianPanels::around_light;
-    const Real3 e = to_center(a.gaussians[index], place);
-    Real foot, h;
-    perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
-    const Mask met = h < a.gaussians[index].reach;
-    if (!any_lane(met)) continue;
-    const float inverse = terms[index].inverse;
-    const bool whole_way = word == index;  // the light stands beyond it
-    const Real share =
-        whole_way ? gaussian_depth_beyond(erf, inverse, h, -foot) : gaussian_depth(erf, inverse, h, -foot, length - foot);
-    depth = fma(select(met, share, 0.0), terms[index].whole, depth);
-  }
-  return depth;
 }
 
 HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
@@ -187,7 +96,7 @@ HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::siz
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const Light& light = a.lights[k];
-  const Real more = here.depth + shading(shade, light, along({0.0, 0.0, 0.0}, d, t));
+  const Real more = here.depth + gaussians.shading(shade, k, along({0.0, 0.0, 0.0}, d, t));
   Real density;
   if (light.directional) {
     density = directional_density(kind, g, a.extinction, -dot(real3(light.vector), d), t, more);
@@ -207,30 +116,53 @@ HWY_INLINE void Scattering::glow(Real t, Real weight, const Local& here) {
   for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
 }
 
-// From `from` to `to` by the nodes; nothing where to <= from.
-HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
-  const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
-  for (std::size_t n = 0; n < rule.node.size(); ++n) {
-    const Real t = fma(half, rule.node[n], middle), weight = half * rule.weight[n];
-    const Local here = local(p, t);
-    for (std::size_t k = 0; k < a.lights.size(); ++k) {
-      const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
-      if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
-    }
-    if (emits && p.active.begin < p.active.end) glow(t, weight, here);
+// What all lights and the medium itself send from a node.
+HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here) {
+  for (std::size_t k = 0; k < a.lights.size(); ++k) {
+    const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
+    if (!GaussianPanels::closed_form(p, shade)) scatter(shade, k, t, weight, here);
   }
+  if (gaussians.emits && p.active.begin < p.active.end) glow(t, weight, here);
 }
 
-// The same where lights reach only parts of rays: each part has nodes of its own. A light that reaches all or nothing between the
-// ends takes those of the whole.
+// From `from` to `to` by the nodes, of which the depth comes, too, unless surfaces may throw a shadow: then errors of extinction
+// in front and of what it scatters make up for each other. Nothing where to <= from.
+HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
+  const GaussLegendre& rule = rule_of(p);
+  const std::size_t count = rule.node.size();
+  const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
+  Local here[GaussianAirlight::most_samples];
+  Real t[GaussianAirlight::most_samples], uneven[GaussianAirlight::most_samples];
+  for (std::size_t n = 0; n < count; ++n) t[n] = fma(half, rule.node[n], middle);
+  gaussians.locals(p, t, count, here);
+  for (std::size_t n = 0; n < count; ++n) uneven[n] = (here[n].extinction - a.extinction) * half;
+  Real whole = front;
+  for (std::size_t n = 0; n < count; ++n) {
+    here[n].depth += front;
+    for (std::size_t k = 0; k < count && !gaussians.with_depths; ++k)
+      here[n].depth = fma(uneven[k], rule.before[n * count + k], here[n].depth);
+    node(p, t[n], half * rule.weight[n], here[n]);
+    whole = fma(uneven[n], rule.weight[n], whole);
+  }
+  if (!gaussians.with_depths) front = whole;
+}
+
+// The same where lights reach only parts of rays: each part has nodes of its own, and depths are closed forms. A light that
+// reaches all or nothing between the ends takes those of the whole.
 HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from, Real to) {
+  const GaussLegendre& rule = rule_of(p);
   Local whole[GaussianAirlight::most_samples];
   bool known = false;
+  const auto at = [&](Real t) HWY_ATTR {
+    Local here = gaussians.local(p, t);
+    here.depth += front;
+    return here;
+  };
   const auto nodes = [&](Real x0, Real x1, const Local* held, auto&& use) HWY_ATTR {
     const Real half = max(x1 - x0, 0.0) * 0.5, middle = (x0 + x1) * 0.5;
     for (std::size_t n = 0; n < rule.node.size(); ++n) {
       const Real t = fma(half, rule.node[n], middle);
-      use(n, t, half * rule.weight[n], held ? held[n] : local(p, t));
+      use(n, t, half * rule.weight[n], held ? held[n] : at(t));
     }
   };
   const auto know = [&]() HWY_ATTR {
@@ -249,7 +181,7 @@ HWY_INLINE void Scattering::sample_lit(const GaussianPanels::Panel& p, Real from
                 HWY_ATTR { scatter(shade, k, t, select(there, weight, 0.0), here); });
     });
   }
-  if (!emits || p.active.begin == p.active.end) return;
+  if (!gaussians.emits || p.active.begin == p.active.end) return;
   know();
   nodes(from, to, whole, [&](std::size_t, Real t, Real weight, const Local& here) HWY_ATTR { glow(t, weight, here); });
 }
@@ -309,9 +241,9 @@ HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real 
 }
 
 HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
-  for (std::uint32_t n = p.passed.begin; n < p.passed.end; ++n) {
+  for (std::uint32_t n = p.passed.begin; n < p.passed.end && gaussians.with_depths; ++n) {
     const std::uint32_t met = panels.indices()[n];
-    front = fma(share_to(met, 1e15), terms[panels.met()[met]].whole, front);
+    front += gaussians.depth_of(met, 1e15);
   }
   const Real from = p.begin, to = min(p.end, end);
   const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
@@ -320,7 +252,7 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   const Real last = select(going, to, from);
   const bool empty = p.active.begin == p.active.end;
   if (empty) closed_forms(p, from, last, going);
-  if (!p.sampled) return;
+  if (p.samples == 0) return;
   Real cut[GaussianPanels::most_cuts + 2];
   const int n = cuts(p, from, last, cut);
   for (int k = 0; k + 1 < n; ++k) {
@@ -337,9 +269,9 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
 
 // One square of the tile, its upper left pixel at (x, y) in the tile.
 static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
-                              const GaussLegendre& rule, std::span<const GaussianTerms> terms, std::span<const LitParts> lit,
-                              AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
-  Scattering s(a, view, panels, rule, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
+                              std::span<const GaussLegendre> rules, std::span<const GaussianTerms> terms,
+                              std::span<const LitParts> lit, AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
+  Scattering s(a, view, panels, rules, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
   const float* distance = view.plane(a.distance);
   for (int row = y; row < y + bin_side; ++row) {
     for (int column = x; column < x + bin_side; column += lanes) {
@@ -354,7 +286,7 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
 
       Real tau = optical_depth(length, a.extinction);
       for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
-        tau = fma(s.share_to(met, s.end), terms[panels.met()[met]].whole, tau);
+        tau += s.gaussians.depth_of(met, s.end);
       }
       const Real source = opacity(tau);
       for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
@@ -374,17 +306,21 @@ HWY_EXPORT(gaussian_airlight);
 
 void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
   static_assert(tile_side % bin_side == 0);
-  GaussianPanels panels;
-  const GaussLegendre rule(a.samples);
+  GaussianPanels panels(a);
+  std::vector<GaussLegendre> rules;  // of one node and more
+  for (int n = 1; n <= a.samples; ++n) rules.emplace_back(n);
   std::vector<GaussianTerms> terms;
-  for (const GaussianDensity& g : a.gaussians) terms.push_back({1 / g.radius, f32::gaussian_whole(g.extinction, g.radius).v});
+  for (const GaussianDensity& g : a.gaussians) {
+    terms.push_back({1 / g.radius, f32::gaussian_whole(1, g.radius).v, f32::gaussian_whole(g.extinction, g.radius).v,
+                     1 / std::max(g.extinction, 1e-37F)});
+  }
   AlignedFloats scratch;
   LitScratch lit_scratch;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
-      if (any_ray(view.plane(a.distance), x, y, bin_side)) panels.make(a, view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rule, terms, lit, scratch, lit_scratch, x, y);
+      if (any_ray(view.plane(a.distance), x, y, bin_side)) panels.make(view.tile.x + x, view.tile.y + y);
+      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules, terms, lit, scratch, lit_scratch, x, y);
     }
   }
 }

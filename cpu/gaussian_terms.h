@@ -4,8 +4,10 @@
 namespace airlight {
 
 struct GaussianTerms {
-  float inverse;  // of its radius [1/m]
-  float whole;    // optical depth of the line through its centre
+  float inverse;          // of its radius [1/m]
+  float length;           // optical depth of the line through its centre, beside its extinction [m]
+  float whole;            // that optical depth
+  float over_extinction;  // 1 / extinction [m], finite
 };
 
 }  // namespace airlight

@@ -88,11 +88,16 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
   const DepthVolume& v = a.volume;
   const int nx = static_cast<int>(v.nodes.x), ny = static_cast<int>(v.nodes.y), nz = static_cast<int>(v.nodes.z);
   const float step = 1 / v.scale.z;
+  const bool cube = v.kind == DepthVolume::Kind::cube;
   GridLookup grid{&a.grid, voxels, voxels};
   if (a.grid) grid.bricks += bricks_at(a.grid);
   for (int i = 0; i < nx; i += lanes) {
     const LightRays rays(a, row, first_lanes() + static_cast<float>(i));
-    const auto distance = [&](float k) HWY_ATTR { return fma(Real(k), step, v.first.z) * rays.rate; };
+    const auto plane = [&](int k) HWY_ATTR {
+      const Real n = static_cast<float>(k);
+      return cube ? cube_plane_distance(n) * step : fma(n, step, v.first.z);
+    };
+    const auto distance = [&](int k) HWY_ATTR { return plane(k) * rays.rate; };
     for (int k = 0; k < nz; ++k) store(0.0, line + k * lanes);
     for (const GaussianDensity& g : a.gaussians) {
       const Real3 e = to_center(g, rays.from);
@@ -106,7 +111,7 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
       const Real before = erf_(-foot * inverse);
       const Real whole = gaussian_between(lateral, before, erf_(Real(g.reach) * inverse));
       for (int k = 0; k < nz; ++k) {
-        const Real t = distance(static_cast<float>(k));
+        const Real t = distance(k);
         const Mask here = meets && (t > begin);
         if (!any_lane(here)) continue;
         Real depth = whole;
@@ -120,18 +125,24 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
       const float part = 1 / static_cast<float>(a.samples);
       const Stretch inside = grid.stretch(rays.from, rays.d, 1e15);
       for (int k = 1; k < nz; ++k) {
-        const Mask meets = (distance(static_cast<float>(k)) > inside.begin) && (distance(static_cast<float>(k - 1)) < inside.end);
+        const Real from = distance(k - 1), size = distance(k) - from;
+        const Mask meets = (from + size > inside.begin) && (from < inside.end);
         if (any_lane(meets)) {
           Real met = 0.0;
           for (int n = 0; n < a.samples; ++n) {
-            const Real t = distance(static_cast<float>(k - 1) + (static_cast<float>(n) + 0.5F) * part);
+            const Real t = fma(size, (static_cast<float>(n) + 0.5F) * part, from);
             met += grid.extinction_at(along(rays.from, rays.d, t));
           }
-          sum = fma(select(meets, met, 0.0), rays.rate * (step * part), sum);
+          sum = fma(select(meets, met, 0.0), size * part, sum);
         }
         float* node = line + k * lanes;
         store(load(node) + sum, node);
       }
+    }
+    if (cube) {
+      for (int k = 1; k < nz; ++k) store(load(line + k * lanes) / cube_plane_distance(static_cast<float>(k)), line + k * lanes);
+      const Real first = load(line + lanes);
+      store(depth_at_light(first, nz > 2 ? load(line + 2 * lanes) : first), line);
     }
     Real before = load(line);
     for (int k = 1; k < nz - 1; ++k) {

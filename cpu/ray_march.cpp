@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "cpu/ray_march.cpp"
 #include <hwy/foreach_target.h>
 
+#include "cpu/held_images.h"
 #include "cpu/simd.h"
 //
 #include "cpu/pixel_rays.h"
@@ -17,6 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
 namespace {
+
+// What a ray knows of each light, behind each other in `scratch`: a vector each. 1 / h; how far the last step's end is from it.
+enum : std::ptrdiff_t { foot_at = 0, h_at = lanes, over_h_at = 2 * lanes, end_at = 3 * lanes, floats_a_light = 4 * lanes };
 
 // What is at a place of the ray.
 struct Local {
@@ -32,15 +36,18 @@ struct March {
   RadianceBound bound;
   bool one_albedo, emits;
   table sources;  // null without
+  float* scratch;
 
-  int i = 0;  // the first pixel
+  int i = 0;             // the first pixel
+  bool follows = false;  // this step begins where that before ended, as the scratch holds
+  bool uneven = false;   // this stretch has Gaussians and grid
   Real3 d;
   Real front, within;  // optical depth so far, and that of Gaussians and grid alone
   Real most;           // radiance that the whole ray can have, were it seen through nothing
   Mask going;
   Real sum[3];
 
-  HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays);
+  HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays, float* floats);
   HWY_INLINE void begin(int first, const Real3& direction);
   HWY_INLINE Mask ended() const;
   HWY_INLINE void stretch(Real begin, Real end, bool all);
@@ -48,7 +55,7 @@ struct March {
   HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
 };
 
-HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays)
+HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays, float* floats)
     : a(algorithm),
       view(tile_view),
       medium(algorithm, tile_view),
@@ -56,7 +63,8 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, co
       bound(algorithm),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0) || algorithm.sources),
-      sources(algorithm.sources ? tile_view.floats(algorithm.sources) : nullptr) {
+      sources(algorithm.sources ? tile_view.floats(algorithm.sources) : nullptr),
+      scratch(floats) {
   for (const GaussianDensity& g : a.gaussians) {
     one_albedo = one_albedo && g.albedo == a.albedo;
     emits = emits || g.emission != glm::vec3(0);
@@ -73,6 +81,15 @@ HWY_INLINE void March::begin(int first, const Real3& direction) {
   most = bound.of(a, d);
   if (sources) most += sources[3];
   if (lit) lit.begin(i);
+  float* of_light = scratch;
+  for (const Light& light : a.lights) {
+    Real foot = 0.0, h = 1.0;
+    if (!light.directional) beside_ray(light, d, foot, h);
+    store(foot, of_light + foot_at);
+    store(h, of_light + h_at);
+    store(1.0 / h, of_light + over_h_at);
+    of_light += floats_a_light;
+  }
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
@@ -108,8 +125,8 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
     const glm::vec3 &first = a.source_first, scale = 1.0F / a.source_spacing;
     const Real x = (p.x - first.x) * scale.x, y = (p.y - first.y) * scale.y, z = (p.z - first.z) * scale.z;
     for (int c = 0; c < 3; ++c) {
-      const Real uneven = max(here.scattering[c] - a.extinction * a.albedo[c], 0.0);
-      here.emission[c] = fma(uneven, source_in_volume(sources, c, x, y, z), here.emission[c]);
+      const Real scattered = max(here.scattering[c] - a.extinction * a.albedo[c], 0.0);
+      here.emission[c] = fma(scattered, source_in_volume(sources, c, x, y, z), here.emission[c]);
     }
   }
   return here;
@@ -121,30 +138,43 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
   const Light& light = a.lights[k];
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
-  Real at, weight, beside = 0.0, phase;
+  Real at, weight, beside = 0.0, phase, sampled;
+  const Local* there = &here;
+  Local nearer;
   if (light.directional) {
-    at = (from + to) * 0.5;
+    sampled = at = (from + to) * 0.5;
     weight = to - from;
     phase = phase_value(kind, g, -dot(real3(light.vector), d));
   } else {
-    Real foot, h;
-    beside_ray(light, d, foot, h);
+    float* of_light = scratch + static_cast<std::ptrdiff_t>(k) * floats_a_light;
+    const Real foot = load(of_light + foot_at), h = load(of_light + h_at);
     const Real before = from - foot, after = to - foot;
-    const Real ra = sqrt(fma(before, before, h * h)), rb = sqrt(fma(after, after, h * h));
-    weight = step_angle(from, to, ra, rb, foot, h);
+    const Real ra = follows ? load(of_light + end_at) : sqrt(fma(before, before, h * h)), rb = sqrt(fma(after, after, h * h));
+    store(rb, of_light + end_at);
+    weight = step_angle(from, to, ra, rb, foot, h, load(of_light + over_h_at));
     Real r;
     step_means(from, to, ra, rb, foot, h, weight, at, r);
     phase = step_phase(kind, g, before, after, ra, rb, h);
     beside = r * a.extinction;
+    sampled = at;
+    // Beside a lamp the medium is looked up where most of the light is scattered, and its shadow where the lamp is as far as on
+    // the mean.
+    const Mask near = near_light(from, to, ra, rb) && (here.extinction > 0.0);
+    if (uneven && any_lane(near && going)) {
+      sampled = select(near, place_at_distance(at, r, foot, h), at);
+      nearer = local(along({0.0, 0.0, 0.0}, d, at), true);
+      for (int c = 0; c < 3; ++c) nearer.scattering[c] = select(near, nearer.scattering[c], here.scattering[c]);
+      there = &nearer;
+    }
   }
   if (medium.any()) {
-    beside += depth_to(medium, k, light, along({0.0, 0.0, 0.0}, d, at), going);
+    beside += depth_to(medium, k, light, along({0.0, 0.0, 0.0}, d, sampled), going);
   }
   const Real share = (at - from) / max(to - from, 1e-30);
   const Mask scatters = lit ? going && (from < to) : going;
   const Real once = phase * weight * step_transmittance(before_it, tau, share, beside);
   for (int c = 0; c < 3; ++c) {
-    const Real light_of_step = select(scatters, here.scattering[c] * once * light.power[c], 0.0);
+    const Real light_of_step = select(scatters, there->scattering[c] * once * light.power[c], 0.0);
     sum[c] += light_of_step;
     if (!a.per_light) continue;
     float* plane = view.plane(a.per_light, c, static_cast<int>(k)) + i;
@@ -165,6 +195,8 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
   const Real length = select(marching, all ? end - begin : min(end - begin, deepest() / max(Real(a.extinction), 1e-30F)), 0.0);
   const float n = static_cast<float>(a.steps);
   Real from = begin;
+  follows = false;
+  uneven = all;
   for (int k = 0; k < a.steps; ++k) {
     going = marching && !ended();
     if (!any_lane(going) && !(whole && all)) break;
@@ -173,7 +205,8 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
     const Real size = max(to - from, 0.0);
     const Local here = local(along({0.0, 0.0, 0.0}, d, (from + to) * 0.5), all);
     const Real tau = here.extinction * size;
-    if (any_lane(going && (here.extinction > 0.0))) {
+    const bool scatters = any_lane(going && (here.extinction > 0.0));
+    if (scatters) {
       for (std::size_t l = 0; l < a.lights.size(); ++l) {
         if (!lit) {
           add_light(l, from, to, front, tau, here);
@@ -185,6 +218,7 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
         }
       }
     }
+    follows = scatters && !lit;
     if (emits) {
       const Real seen = select(going, size * mean_transmittance(tau) * transmittance(front), 0.0);
       for (int c = 0; c < 3; ++c) sum[c] = fma(seen, here.emission[c], sum[c]);
@@ -198,9 +232,10 @@ HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
 
 }  // namespace
 
-static void ray_march(const RayMarch& a, const TileView& view, std::span<const LitParts> lit, LitScratch& scratch) {
+static void ray_march(const RayMarch& a, const TileView& view, std::span<const LitParts> lit, LitScratch& lit_scratch,
+                      AlignedFloats& scratch) {
   const float* distance = view.plane(a.distance);
-  March march(a, view, LitRays(lit, scratch));
+  March march(a, view, LitRays(lit, lit_scratch), scratch.resize(a.lights.size() * floats_a_light));
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
     if (!any_lane(length > 0.0)) {
@@ -244,8 +279,9 @@ namespace airlight {
 HWY_EXPORT(ray_march);
 
 void run_tile(const RayMarch& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
-  LitScratch scratch;
-  entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view, lit, scratch);
+  LitScratch lit_scratch;
+  AlignedFloats scratch;
+  entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view, lit, lit_scratch, scratch);
 }
 
 }  // namespace airlight

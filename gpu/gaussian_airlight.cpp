@@ -12,6 +12,7 @@ namespace airlight {
 namespace {
 
 constexpr GLuint squares_binding = 0, panels_binding = 1, shades_binding = 2, indices_binding = 4;  // 3: gpu/shadow_run.glsl
+constexpr int most_before = 374;  // 1 + 4 + 9 + ... + 16^2 of GaussLegendre::before, four in a vector
 constexpr int all_pieces = GaussianPanels::most_cuts + 2;
 
 // The panels of all squares, as the shader reads them; and what it may do in one dispatch (LoopBudget).
@@ -21,10 +22,10 @@ class PanelLists {
   PanelLists(const GaussianAirlight& a, std::int64_t most_rounds)
       : a_(a), most_rounds_(most_rounds), columns_((a.view.extent.width + bin_side - 1) / bin_side) {
     const int rows = (a.view.extent.height + bin_side - 1) / bin_side;
-    GaussianPanels panels;
+    GaussianPanels panels(a);
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        panels.make(a, column * bin_side, row * bin_side);
+        panels.make(column * bin_side, row * bin_side);
         add(panels);
       }
     }
@@ -77,17 +78,18 @@ class PanelLists {
         if (s.levels > 0) pieces += 2 * static_cast<int>(s.levels) + 1;
       }
       panels_.emplace_back(std::bit_cast<int>(one.begin), std::bit_cast<int>(one.end), active.x, active.y);
-      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.sampled ? 1 : 0);
+      panels_.emplace_back(passed.x, passed.y, first_shade + static_cast<int>(one.shades), one.samples);
       const int index = first_panel + static_cast<int>(&one - p.panels().data());
       const auto lights = static_cast<std::int64_t>(a_.lights.size());
       const std::int64_t once = 3 * lights + passed.y - passed.x + pieces * pieces / 2 + 3 * pieces;
-      const std::int64_t a_piece = one.sampled ? 1 + a_.samples * (1 + active.y - active.x + of_lights) : 0;
+      const std::int64_t a_piece =
+          one.samples > 0 ? 1 + one.samples * (1 + active.y - active.x + of_lights + (a_.volumes ? 0 : one.samples)) : 0;
       rounds_of_a_piece_ = std::max(rounds_of_a_piece_, a_piece);
       rounds = split(index, pieces, once, a_piece, rounds, static_cast<int>(parts_.size()) == first_part);
     }
     for (const GaussianPanels::Shade& s : p.shades()) {
       const glm::ivec2 shading = list(p, s.shading, [](std::uint32_t word) { return std::bit_cast<int>(word); });
-      shades_.emplace_back(shading, static_cast<int>(s.levels), 0);
+      shades_.emplace_back(shading, static_cast<int>(s.levels), s.shaded ? 1 : 0);
     }
     const auto first_met = static_cast<int>(indices_.size());
     for (const std::uint32_t g : p.met()) indices_.push_back(static_cast<int>(g));
@@ -134,14 +136,17 @@ class PanelLists {
 
 struct Knobs {
   glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
-  int phase_kind, samples, side, columns;
-  glm::vec4 rule[16];
+  int phase_kind, side, columns, unused;
+  glm::vec4 rules[GaussianAirlight::most_samples * (GaussianAirlight::most_samples + 1) / 2];
+  glm::vec4 before[most_before];
 };
 
 }  // namespace
 
 void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, {}, {}, 1, LightDepth::analytic, a.erf);
+  const int depths_at = bind_depths(r, a.tables, {a.depths, a.depth_volumes}).depths;
+  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
@@ -156,12 +161,13 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   program.set("noise_amplitude", a.noise.amplitude);
   program.set("noise_inverse_scale", 1 / a.noise.scale);
   program.set("noise_offset", a.noise.offset);
+  program.set("depth_volumes_at", depths_at);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);
   r.write(2, a.transmittance);
   r.write(3, a.optical_depth);
-  if (a.tables) r.storage(tables_binding, a.tables);
+  if (a.tables && depths_at < 0) r.storage(tables_binding, a.tables);
   r.view(a.view);
   PanelLists lists(a, shadowed ? LoopBudget::most / 2 : LoopBudget::most);
   lists.bind(r);
@@ -169,12 +175,21 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
               {a.ambient, a.sky_distance},
               {a.emission, static_cast<float>(a.phase.g)},
               static_cast<int>(a.phase.kind),
-              a.samples,
               bin_side,
               lists.columns(),
+              0,
+              {},
               {}};
-  const GaussLegendre rule(a.samples);
-  for (std::size_t n = 0; n < rule.node.size(); ++n) knobs.rule[n] = {rule.node[n], rule.weight[n], 0, 0};
+  glm::vec4* to = knobs.rules;
+  std::size_t beforehand = 0;
+  for (int count = 1; count <= a.samples; ++count) {
+    const GaussLegendre rule(count);
+    for (std::size_t n = 0; n < rule.node.size(); ++n) *to++ = {rule.node[n], rule.weight[n], 0, 0};
+    for (const float b : rule.before) {
+      knobs.before[beforehand / 4][static_cast<int>(beforehand % 4)] = b;
+      ++beforehand;
+    }
+  }
   r.block(knobs_binding, knobs);
   const auto each_part = [&](bool last, auto&& dispatch) {
     for (int part = 0; part < lists.dispatches(); ++part) {

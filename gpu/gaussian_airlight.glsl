@@ -16,17 +16,18 @@ layout(std140, binding = 2) uniform Knobs {
   vec4 ambient_sky_distance;
   vec4 emission_g;
   int phase_kind;
-  int samples;
   int bin_side;
   int bin_columns;
-  vec4 rule[16];  // node, weight
+  int unused;
+  vec4 rules[136];   // node, weight: that of one node, that of two, and so on
+  vec4 before[374];  // theirs, four in a vector (GaussLegendre::before)
 };
 
 #include "gpu/no_airlight.glsl"
 
 // The panels of all squares (common/plan/gaussian_panels.h): where a square's parts begin and end, then where its Gaussians do; behind all of them the
-// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end and lists; of each light's list there the ends and
-// the levels; Gaussians.
+// parts, what a dispatch does for a square: panels, and which pieces of each; a panel's begin, end, lists and how many nodes it has; of each light's list there the ends,
+// the levels, and whether anything may shade it; Gaussians.
 layout(std430, binding = 0) readonly buffer SquareBlock { ivec4 squares[]; };
 layout(std430, binding = 1) readonly buffer PanelBlock { ivec4 panels[]; };
 layout(std430, binding = 2) readonly buffer ShadeBlock { ivec4 shades[]; };
@@ -77,6 +78,8 @@ struct Local {
   float depth;
 };
 
+int samples;  // of this panel
+
 Local local_at(ivec2 meets, float t) {
   Local here = Local(albedo_extinction.w, albedo_extinction.xyz * albedo_extinction.w, emission_g.xyz, front);
   for (int n = meets.x; n < meets.y; ++n) {
@@ -91,8 +94,10 @@ Local local_at(ivec2 meets, float t) {
     if (h >= emission_reach(g).w) continue;
     float past = t - foot;
     float lateral = gaussian_lateral(inverse, h);
+#ifdef WITH_LIT
     float share = gaussian_between(lateral, gaussian_erf(GAUSSIAN_ERF, -foot * inverse), gaussian_erf(GAUSSIAN_ERF, past * inverse));
     here.depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), here.depth);
+#endif
     float falloff = lateral * gaussian_falloff(inverse, past * past);
     float extinction = falloff * albedo_extinction_of(g).w;
     here.extinction += extinction;
@@ -102,8 +107,11 @@ Local local_at(ivec2 meets, float t) {
   return here;
 }
 
-// Optical depth of Gaussians between a place and a light.
-float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
+// Optical depth of Gaussians between a place and light k.
+float shading(ivec4 shade, int k, vec3 vector, bool directional, vec3 place) {
+#ifdef WITH_DEPTH_VOLUMES
+  return shade.w == 0 ? 0.0 : depth_to_light(k, place);
+#else
   float depth = 0.0;
   float length;
   vec3 way = toward_light(vector, directional, place, length);
@@ -122,6 +130,7 @@ float shading(ivec4 shade, vec3 vector, bool directional, vec3 place) {
     depth = fma(share, gaussian_whole(albedo_extinction_of(g).w, radius), depth);
   }
   return depth;
+#endif
 }
 
 void add(int k, vec3 scattered) {
@@ -132,37 +141,67 @@ void add(int k, vec3 scattered) {
 #endif
 }
 
-bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.x == shade.y; }
+bool closed_form(ivec2 meets, ivec4 shade) { return meets.x == meets.y && shade.w == 0; }
 
-// By the nodes: of the lights, and of what glows.
+// What a node sends: of the lights, and of what glows.
+void take_node(ivec2 meets, int first_shade, float t, float weight, Local here, bool lights, bool glow) {
+  for (int k = first_light(); k < end_light() && lights; ++k) {
+    ivec4 shade = shades[first_shade + k];
+    if (closed_form(meets, shade)) continue;
+    vec4 vector_radius = light_values[2 * k];
+    vec4 power_directional = light_values[2 * k + 1];
+    bool directional = power_directional.w != 0.0;
+    float more = here.depth + shading(shade, k, vector_radius.xyz, directional, d * t);
+    float density;
+    if (directional) {
+      density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);
+    } else {
+      float foot;
+      float h;
+      beside_ray(vector_radius, d, foot, h);
+      density = airlight_density(phase_kind, emission_g.w, albedo_extinction.w, foot, h, t, more);
+    }
+    add(k, here.scattering * (weight * density) * power_directional.xyz);
+  }
+  if (glow && meets.x < meets.y) sum += weight * transmittance(fma(t, albedo_extinction.w, here.depth)) * here.emission;
+}
+
+vec4 rule_of(int n) { return rules[samples * (samples - 1) / 2 + n]; }
+
+#ifdef WITH_LIT
 void take_samples(ivec2 meets, int first_shade, float from, float to, bool lights, bool glow) {
   float width = max(to - from, 0.0) * 0.5;
   float middle = (from + to) * 0.5;
   for (int n = 0; n < samples; ++n) {
-    float t = fma(width, rule[n].x, middle);
-    float weight = width * rule[n].y;
-    Local here = local_at(meets, t);
-    for (int k = first_light(); k < end_light() && lights; ++k) {
-      ivec4 shade = shades[first_shade + k];
-      if (closed_form(meets, shade)) continue;
-      vec4 vector_radius = light_values[2 * k];
-      vec4 power_directional = light_values[2 * k + 1];
-      bool directional = power_directional.w != 0.0;
-      float more = here.depth + shading(shade, vector_radius.xyz, directional, d * t);
-      float density;
-      if (directional) {
-        density = directional_density(phase_kind, emission_g.w, albedo_extinction.w, -dot3(vector_radius.xyz, d), t, more);
-      } else {
-        float foot;
-        float h;
-        beside_ray(vector_radius, d, foot, h);
-        density = airlight_density(phase_kind, emission_g.w, albedo_extinction.w, foot, h, t, more);
-      }
-      add(k, here.scattering * (weight * density) * power_directional.xyz);
-    }
-    if (glow && meets.x < meets.y) sum += weight * transmittance(fma(t, albedo_extinction.w, here.depth)) * here.emission;
+    float t = fma(width, rule_of(n).x, middle);
+    take_node(meets, first_shade, t, width * rule_of(n).y, local_at(meets, t), lights, glow);
   }
 }
+#else
+// The depth comes from the nodes, too, as cpu/gaussian_airlight.cpp tells.
+void take_samples(ivec2 meets, int first_shade, float from, float to) {
+  float width = max(to - from, 0.0) * 0.5;
+  float middle = (from + to) * 0.5;
+  float uneven[16];
+  vec3 scattering[16];
+  vec3 emission[16];
+  for (int n = 0; n < samples; ++n) {
+    Local here = local_at(meets, fma(width, rule_of(n).x, middle));
+    uneven[n] = (here.extinction - albedo_extinction.w) * width;
+    scattering[n] = here.scattering;
+    emission[n] = here.emission;
+  }
+  float whole = front;
+  int row = (samples - 1) * samples * (2 * samples - 1) / 6;
+  for (int n = 0; n < samples; ++n) {
+    Local here = Local(0.0, scattering[n], emission[n], front);
+    for (int k = 0; k < samples; ++k, ++row) here.depth = fma(uneven[k], before[row / 4][row % 4], here.depth);
+    take_node(meets, first_shade, fma(width, rule_of(n).x, middle), width * rule_of(n).y, here, true, true);
+    whole = fma(uneven[n], rule_of(n).y, whole);
+  }
+  front = whole;
+}
+#endif
 
 #ifdef WITH_TABLES
 // Per unit of power and albedo, where only the homogeneous part is.
@@ -251,7 +290,7 @@ void take_piece(ivec2 meets, int first_shade, float from, float to) {
   }
 }
 #else
-void take_piece(ivec2 meets, int first_shade, float from, float to) { take_samples(meets, first_shade, from, to, true, true); }
+void take_piece(ivec2 meets, int first_shade, float from, float to) { take_samples(meets, first_shade, from, to); }
 #endif
 
 // Pieces first to last of a panel.
@@ -263,14 +302,17 @@ void take_panel(int p, int first, int last) {
   ivec2 meets = one.zw;
   ivec2 passed = two.xy;
   int first_shade = two.z;
+  samples = two.w;
+#ifdef WITH_LIT
   if (first == 0) {
     for (int n = passed.x; n < passed.y; ++n) front += depth_to(indices[n], 1e15);
   }
+#endif
   float to = min(panel_end, end);
   if (!(from < to) || ray_ended(fma(from, albedo_extinction.w, front), most, largest(sum))) return;
   bool empty = meets.x == meets.y;
   if (empty && first == 0) closed_forms(meets, first_shade, from, to);
-  if (two.w == 0) return;
+  if (samples == 0) return;
   make_cuts(first_shade, panel_end - from, from, to);
   for (int k = first; k + 1 < cut_count && k < last; ++k) {
     if (cut[k] < cut[k + 1]) take_piece(meets, first_shade, cut[k], cut[k + 1]);

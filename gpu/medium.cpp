@@ -91,7 +91,8 @@ TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& 
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,
                        LightDepth light_depth, std::size_t lights, std::int64_t most) {
   const auto count = static_cast<std::int64_t>(gaussians.size()), n = static_cast<std::int64_t>(light_steps);
-  LoopBudget budget{light_depth == LightDepth::volume ? 4 : 2 + count, 1};
+  // Its depth, and the medium where the light is near.
+  LoopBudget budget{(light_depth == LightDepth::volume ? 4 : 2 + count) + count, 1};
   if (count > 0 && light_depth == LightDepth::march) budget.a_light += n * (1 + count);
   if (grid && light_depth != LightDepth::volume) budget.a_light += n + 3;
   if (budget.a_light + count + 2 > most) {

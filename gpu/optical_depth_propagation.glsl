@@ -20,6 +20,10 @@ int item() { return first_item + int(gl_WorkGroupID.x) * 64 + int(gl_LocalInvoca
 ivec3 nodes() { return ivec3(nodes_scheme.xyz); }
 
 #if defined(GRID) || defined(GAUSSIANS)
+float plane_distance(int k) {
+  return first_kind.w == 3.0 ? cube_plane_distance(float(k)) * (1.0 / scale_samples.z) : fma(float(k), 1.0 / scale_samples.z, first_kind.z);
+}
+
 // The light's ray through a node, as in cpu/optical_depth_propagation.cpp: from + t d, planes `rate` z apart.
 void light_ray(int face, int i, int j, out vec3 from, out vec3 d, out float rate) {
   float u = fma(float(i), 1.0 / scale_samples.x, first_kind.x);
@@ -65,7 +69,6 @@ void main() {
   vec3 d;
   float rate;
   light_ray(face, i, j, from, d, rate);
-  float size = 1.0 / scale_samples.z;
   int samples = int(scale_samples.w);
   float part = 1.0 / float(samples);
   float sum = 0.0;
@@ -75,12 +78,14 @@ void main() {
   for (int k = 0; k < n.z; ++k) {
 #ifdef WITH_GRID
     float met = 0.0;
-    bool meets = k > 0 && fma(float(k), size, first_kind.z) * rate > inside.x && fma(float(k - 1), size, first_kind.z) * rate < inside.y;
+    float start = k > 0 ? plane_distance(k - 1) * rate : 0.0;
+    float size = plane_distance(k) * rate - start;
+    bool meets = k > 0 && start + size > inside.x && start < inside.y;
     for (int m = 0; meets && m < samples; ++m) {
-      float t = fma(float(k - 1) + (float(m) + 0.5) * part, size, first_kind.z) * rate;
+      float t = fma(size, (float(m) + 0.5) * part, start);
       met += grid_extinction_at(fma(d, vec3(t), from));
     }
-    sum = fma(met, rate * (size * part), sum);
+    sum = fma(met, size * part, sum);
 #endif
     depths[9 + i + n.x * (j + n.y * (k + n.z * face))] = sum;
   }
@@ -101,7 +106,7 @@ void main() {
   vec3 d;
   float rate;
   light_ray(at / n.x / n.y / n.z, at % n.x, at / n.x % n.y, from, d, rate);
-  float t = fma(float(k), 1.0 / scale_samples.z, first_kind.z) * rate;
+  float t = plane_distance(k) * rate;
   float sum = 0.0;
   for (int g = first_gaussian; g < end_gaussian; ++g) {
     vec3 e = center_radius(g).xyz - from;
@@ -124,6 +129,14 @@ layout(std430, binding = 1) buffer SharpenedBuffer { float sharpened[]; };  // i
 
 uniform int axis;
 
+// As the volume holds it: of a cube the first pass divides by the distance in cells.
+float held(int at, int k, int layer) {
+  if (axis != 2 || first_kind.w != 3.0) return depths[9 + at];
+  if (k > 0) return depths[9 + at] / cube_plane_distance(float(k));
+  float first = depths[9 + at + layer] / cube_plane_distance(1.0);
+  return depth_at_light(first, nodes().z > 2 ? depths[9 + at + 2 * layer] / cube_plane_distance(2.0) : first);
+}
+
 void main() {
   ivec3 n = nodes();
   int faces = first_kind.w == 3.0 ? 6 : 1;
@@ -132,8 +145,8 @@ void main() {
   if (at < 9) sharpened[at] = depths[at];
   int stride = axis == 0 ? 1 : axis == 1 ? n.x : n.x * n.y;
   int along = at / stride % n[axis];
-  float here = depths[9 + at];
-  if (along > 0 && along < n[axis] - 1) here = sharpened_depth(depths[9 + at - stride], here, depths[9 + at + stride]);
+  float here = held(at, along, stride);
+  if (along > 0 && along < n[axis] - 1) here = sharpened_depth(held(at - stride, along - 1, stride), here, held(at + stride, along + 1, stride));
   sharpened[9 + at] = here;
 }
 #endif

@@ -92,6 +92,8 @@ Local local_at(vec3 p, bool all) {
   return here;
 }
 
+bool uneven;  // this stretch has Gaussians and grid
+
 // Light number k, scattered in the step [from, to] or in a lit part of one: of optical depth tau, behind `before_it`.
 void add_light(int k, float from, float to, float before_it, float tau, Local here) {
   vec4 vector_radius = light_values[2 * k];
@@ -101,6 +103,8 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
   float weight = to - from;
   float beside = 0.0;
   float phase;
+  float sampled = at;
+  vec3 scattering = here.scattering;
   if (power_directional.w != 0.0) {
     phase = phase_value(phase_kind, emission_g.w, -dot3(v, d));
   } else {
@@ -111,18 +115,24 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
     float after = to - foot;
     float ra = sqrt(fma(before, before, h * h));
     float rb = sqrt(fma(after, after, h * h));
-    weight = step_angle(from, to, ra, rb, foot, h);
+    weight = step_angle(from, to, ra, rb, foot, h, 1.0 / h);
     float r;
     step_means(from, to, ra, rb, foot, h, weight, at, r);
     phase = step_phase(phase_kind, emission_g.w, before, after, ra, rb, h);
     beside = r * albedo_extinction.w;
+    sampled = at;
+    // As cpu/ray_march.cpp tells.
+    if (uneven && near_light(from, to, ra, rb)) {
+      sampled = place_at_distance(at, r, foot, h);
+      scattering = local_at(d * at, true).scattering;
+    }
   }
 #if defined(WITH_GAUSSIANS) || defined(WITH_GRID)
-  beside += depth_to(k, v, power_directional.w != 0.0, d * at);
+  beside += depth_to(k, v, power_directional.w != 0.0, d * sampled);
 #endif
   float share = (at - from) / max(to - from, 1e-30);
   float once = phase * weight * step_transmittance(before_it, tau, share, beside);
-  vec3 light_of_step = here.scattering * once * power_directional.xyz;
+  vec3 light_of_step = scattering * once * power_directional.xyz;
   sum += light_of_step;
 #ifdef WITH_PER_LIGHT
   ivec3 layer = ivec3(pixel, k);
@@ -160,6 +170,7 @@ void stretch(int base, float begin, float end, bool all) {
   int first = max(first_step - base, 0);
   int last = min(end_step - base, steps);
   float before = float(first);
+  uneven = all;
   float from = begin + (all ? length * (before / n) : graded_step(before, n, length, extinction));
   for (int k = first; k < last; ++k) {
     bool going = !ended();

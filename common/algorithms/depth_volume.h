@@ -11,14 +11,16 @@ namespace airlight {
 struct DepthVolume {
   // cells: the centres of a box of cubes. The others lie along the light's rays, plane behind plane of equal distance, so that a
   // ray's depths are sums along one line of nodes: parallel, of a directional light; frustum, of a point light far outside the
-  // medium; cube, of one near or inside it: six faces about the light.
+  // medium; cube, of one near or inside it: six faces about the light, whose planes stand closer near it, and which hold depths
+  // beside the distance.
   enum class Kind : int { cells, parallel, frustum, cube };
 
   Kind kind = Kind::cells;
   // Row i of `rows` takes a place (x, y, z, 1) to coordinate i of the light's frame [m], in which it shines from the origin (of
   // parallel: from z = 0) along z; of cells, to cells, 0 at the first centre.
   glm::vec4 rows[3] = {};
-  // A node's number is (q - first) * scale, q = (x / z, y / z, z) of frustum and cube, (x, y, z) of the others.
+  // A node's number is (q - first) * scale, q = (x / z, y / z, z) of frustum and cube, (x, y, z) of the others; of a cube's
+  // planes cube_plane_number() of that.
   glm::vec3 first{0, 0, 0}, scale{1, 1, 1};
   glm::vec3 nodes{0, 0, 0};  // of a face, each at least 2; 0: there is no volume
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/algorithms/depth_volume.h"
 #include "common/algorithms/field.h"
 #include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
@@ -9,15 +10,17 @@
 namespace airlight {
 
 // Single scattering along each pixel's ray in a sum of Gaussians and a homogeneous part, after Zhou et al. 2007. Optical depths
-// of Gaussians are closed forms (their eq. 31), on the view ray and on the way to each light; what is left is integrated over
-// panels (common/plan/gaussian_panels.h) with `samples` Gauss-Legendre nodes each. Where only the homogeneous part is and nothing
-// shades it, the closed form of HomogeneousAirlight is taken. With shadow volumes, each light is integrated over the parts of the
-// ray that it reaches, cut where the ray crosses a plane.
+// of Gaussians are closed forms (their eq. 31), on the view ray and on the way to each light, where they may be looked up in a
+// volume instead; what is left is integrated over panels (common/plan/gaussian_panels.h) with `samples` Gauss-Legendre nodes
+// each. Where only the homogeneous part is and nothing shades it, the closed form of HomogeneousAirlight is taken. With shadow
+// volumes, each light is integrated over the parts of the ray that it reaches, cut where the ray crosses a plane.
 struct GaussianAirlight {
-  Image distance;  // r32f [m], 1e30 on a miss
-  Buffer tables;   // as in HomogeneousAirlight; needed by point lights where extinction > 0
-  Buffer volumes;  // as ShadowPlanes'; optional: without, nothing throws a shadow
+  Image distance;              // r32f [m], 1e30 on a miss
+  Buffer tables;               // as in HomogeneousAirlight; needed by point lights where extinction > 0
+  Buffer volumes;              // as ShadowPlanes'; optional: without, nothing throws a shadow
+  std::vector<Buffer> depths;  // one a light, as OpticalDepthPropagation's; none: closed forms
   std::vector<Light> lights;
+  std::vector<DepthVolume> depth_volumes;  // where they stand, seen from the camera
   std::vector<GaussianDensity> gaussians;
   View view;
   Phase phase;
@@ -44,7 +47,9 @@ struct GaussianAirlight {
     v(in("distance", "m"), s.distance);
     v(in("tables"), s.tables);
     v(in("volumes"), s.volumes);
+    v(in("depths"), s.depths);
     v(knob("lights"), s.lights);
+    v(knob("depth_volumes"), s.depth_volumes);
     v(knob("gaussians"), s.gaussians);
     v(knob("view"), s.view);
     v(knob("phase"), s.phase);

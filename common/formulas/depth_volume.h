@@ -15,8 +15,18 @@ FORMULA real cube_face(real x, real y, real z, OUT(real) a, OUT(real) b, OUT(rea
   return select(on_x, real(0.0), select(on_y, real(2.0), real(4.0))) + select(s < 0.0, real(1.0), real(0.0));
 }
 
+// Planes of a cube about a light stand closer near it, where most is lit and depths bend within a cell: how far plane k is, in cells, and the other way
+// round. Far away they are a cell apart.
+FORMULA real cube_plane_distance(real k) {
+  return k * k / (k + 8.0);
+}
+FORMULA real cube_plane_number(real distance) {
+  return 0.5 * (distance + sqrt(distance * (distance + 32.0)));
+}
+
 // The optical depth at a place in the light's frame: a table of first, scale and nodes an axis (DepthVolume), then the depths, x fastest, plane by
-// plane, face by face. Linear an axis at a time between nodes; the outermost hold outside. kind: the order of DepthVolume::Kind.
+// plane, face by face. Linear an axis at a time between nodes; the outermost hold outside. kind: the order of DepthVolume::Kind. A cube (3) holds depths
+// beside the distance in cells: these are nearly the same from the light on.
 FORMULA real depth_in_volume(table t, int kind, real x, real y, real z) {
   real a = x;
   real b = y;
@@ -39,8 +49,18 @@ FORMULA real depth_in_volume(table t, int kind, real x, real y, real z) {
   real w;
   grid_lookup_clamped((a - element(t, 0)) * element(t, 3), nx, i, u);
   grid_lookup_clamped((b - element(t, 1)) * element(t, 4), ny, j, v);
-  grid_lookup_clamped((c - element(t, 2)) * element(t, 5), nz, k, w);
-  return weighted_cell(t + 9, i, j, fma(face, nz, k), nx, ny, u, v, w);
+  real plane = (c - element(t, 2)) * element(t, 5);
+  if (kind == 3) plane = cube_plane_number(max(plane, 0.0));
+  grid_lookup_clamped(plane, nz, k, w);
+  real depth = weighted_cell(t + 9, i, j, fma(face, nz, k), nx, ny, u, v, w);
+  if (kind == 3) depth = depth * cube_plane_distance(k + w);
+  return depth;
+}
+
+// What a cube holds at the light, by the first two planes: as far along the straight line through them.
+FORMULA real depth_at_light(real first, real second) {
+  real slope = (second - first) / (cube_plane_distance(2.0) - cube_plane_distance(1.0));
+  return max(first - slope * cube_plane_distance(1.0), 0.0);
 }
 
 // A node's depth given those before and after it along an axis: linear lookups between such values have the mean of what lies there, to fourth order,

@@ -44,6 +44,7 @@ inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, rea
   return fma(w, layer(p + width * height) - a, a);
 }
 inline real exp_(real x) { return std::exp(x); }
+inline real exp2_(real x) { return std::exp2(x); }
 inline real log_(real x) { return std::log(x); }
 inline real erf_(real x) { return std::erf(x); }
 inline real atan_(real x) { return std::atan(x); }

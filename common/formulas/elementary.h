@@ -16,6 +16,18 @@ FORMULA real exp_(real x) {
   return p * exp2_int(n);
 }
 
+// 2^x for x in -126..0.
+FORMULA real exp2_(real x) {
+  real n = round_even(x);
+  real r = x - n;
+  real p = fma(r, real(1.3264725418145537e-3), real(9.671512767578973e-3));
+  p = fma(r, p, real(5.5507337491631170e-2));
+  p = fma(r, p, real(2.4022242082586368e-1));
+  p = fma(r, p, real(6.9314697759505830e-1));
+  p = fma(r, p, real(1.0));
+  return p * exp2_int(n);
+}
+
 // Natural logarithm of a normal x > 0. x = 2^e m with m in sqrt(1/2)..sqrt(2); log m = 2 artanh s, s = (m - 1) / (m + 1),
 // by its series: the first left-out term is s^10 / 11 < 2e-9.
 FORMULA real log_(real x) {

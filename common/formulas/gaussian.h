@@ -2,13 +2,12 @@
 
 // Extinction at a distance from the centre, beside c. From exp(-60) on it is held: no denormal arises.
 FORMULA real gaussian_falloff(real inverse_radius, real distance_squared) {
-  return exp_(-min(distance_squared * (inverse_radius * inverse_radius), 60.0));
+  return exp2_(max(distance_squared * (inverse_radius * inverse_radius * -1.4426950408889634), -86.5));
 }
 
 // What a Gaussian has at a distance h from its centre, beside c: on a ray, its part in every place.
 FORMULA real gaussian_lateral(real inverse_radius, real h) {
-  real y = h * inverse_radius;
-  return exp_(-min(y * y, 60.0));
+  return gaussian_falloff(inverse_radius, h * h);
 }
 
 // The error function as Zhou et al. 2007 print it below eq. 31, for speed: absolute error 2.0e-4, the largest where it steps by 3e-5 to 1.

@@ -14,19 +14,24 @@ FORMULA real graded_step(real k, real n, real length, real extinction) {
 // A step [a, b] beside a point light whose foot is at `foot`, h > 0 away, ra and rb its distances from the ends: int_a^b dt / r^2, the angle in
 // which the light sees the step over h [1/m]. Half its tangent is written for a foot outside the step and for one inside: each cancels in the
 // other's place.
-FORMULA real step_angle(real a, real b, real ra, real rb, real foot, real h) {
+FORMULA real step_angle(real a, real b, real ra, real rb, real foot, real h, real over_h) {
   real to_a = a - foot;
   real to_b = b - foot;
   real both = to_a * to_b;
   mask inside = both < 0.0;
   real rise = select(inside, to_b * (h + ra) - to_a * (h + rb), h * (b - a));
   real run = select(inside, fma(h + ra, h + rb, both), fma(ra, rb, fma(h, h, both)));
-  return 2.0 / h * atan_(rise / max(run, 1e-30));
+  return 2.0 * over_h * atan_(rise / max(run, 1e-30));
 }
 
 // r + x for x = past the foot, where they cancel too.
 FORMULA real beyond_foot(real past, real r, real h) {
   return select(past > 0.0, r + past, h * h / (r + abs(past)));
+}
+
+// Whether a step is not short beside its distance from the light.
+FORMULA mask near_light(real a, real b, real ra, real rb) {
+  return b - a > 0.1 * min(ra, rb);
 }
 
 // Means over the step, weighed like that: of the place t and of the light's distance r. `angle` is step_angle(). A step short beside its distance takes
@@ -35,15 +40,21 @@ FORMULA void step_means(real a, real b, real ra, real rb, real foot, real h, rea
   t = (a * rb + b * ra) / (ra + rb);
   real past = t - foot;
   r = sqrt(fma(past, past, h * h));
-  mask near_light = b - a > 0.1 * min(ra, rb);
-  if (any_lane(near_light)) {
+  mask near = near_light(a, b, ra, rb);
+  if (any_lane(near)) {
     real to_a = a - foot;
     real to_b = b - foot;
     real scale = 1.0 / max(angle, 1e-30);
     real inverse = log_(beyond_foot(to_b, rb, h) / beyond_foot(to_a, ra, h));  // int dt / r
-    t = select(near_light, min(max(fma(log_(rb / ra), scale, foot), a), b), t);
-    r = select(near_light, max(inverse * scale, h), r);
+    t = select(near, min(max(fma(log_(rb / ra), scale, foot), a), b), t);
+    r = select(near, max(inverse * scale, h), r);
   }
+}
+
+// Where on the ray the light is that far away, on the side of t: what lies before it on its way is what the whole step has on the mean.
+FORMULA real place_at_distance(real t, real r, real foot, real h) {
+  real past = sqrt(max((r - h) * (r + h), 0.0));
+  return foot + select(t < foot, -past, past);
 }
 
 // The direction halfway between two, given by sine and cosine of their angles in -pi/2..pi/2.
@@ -73,10 +84,12 @@ FORMULA real mean_phase(int kind, real g, real sin_a, real cos_a, real sin_b, re
 // The same over a step, whose ends lie to_a and to_b from the foot: halfway where the angle is small, in four parts where it is wide.
 FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb, real h) {
   if (kind == 0) return phase_isotropic();
-  real s0 = to_a / ra;
-  real c0 = h / ra;
-  real s4 = to_b / rb;
-  real c4 = h / rb;
+  real over_ra = 1.0 / ra;
+  real over_rb = 1.0 / rb;
+  real s0 = to_a * over_ra;
+  real c0 = h * over_ra;
+  real s4 = to_b * over_rb;
+  real c4 = h * over_rb;
   real s2;
   real c2;
   halfway(s0, c0, s4, c4, s2, c2);
@@ -112,5 +125,7 @@ FORMULA real deepest() { return 80.0; }
 // Whether a ray ends behind `front`: `most` is the radiance that all of it could have, seen through nothing (int sigma_t exp(-T) dt is 1 at most), `seen` what
 // it has. From exp(-16) on it ends where what is behind can change that by 1e-6 at most.
 FORMULA mask ray_ended(real front, real most, real seen) {
-  return (front >= deepest()) || ((front >= 16.0) && (transmittance(front) * most <= seen * 1e-6));
+  mask deep = front >= 16.0;
+  if (!any_lane(deep)) return deep;
+  return (front >= deepest()) || (deep && (transmittance(front) * most <= seen * 1e-6));
 }

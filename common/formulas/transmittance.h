@@ -33,8 +33,13 @@ FORMULA real opacity(real tau) {
 
 // Mean of the transmittance over a segment of optical depth tau: (1 - exp(-tau)) / tau, 1 at 0.
 FORMULA real mean_transmittance(real tau) {
-  real t = max(tau, 0.25);
-  return select(tau < 0.25, thin_mean_transmittance(min(tau, 0.25)), (1.0 - transmittance(t)) / t);
+  real mean = thin_mean_transmittance(min(tau, 0.25));
+  mask thick = tau >= 0.25;
+  if (any_lane(thick)) {
+    real t = max(tau, 0.25);
+    mean = select(thick, (1.0 - transmittance(t)) / t, mean);
+  }
+  return mean;
 }
 
 // int_0^length exp(-extinction t) dt, tau = optical_depth(length, extinction): what a constant emission is seen through [m].

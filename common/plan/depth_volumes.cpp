@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "common/formulas/double.h"
 #include "common/plan/geometry.h"
 
 namespace airlight {
@@ -118,7 +119,9 @@ DepthVolume depth_volume(const MediumBox& box, const LightSource& light, const g
   v.kind = DepthVolume::Kind::cube;
   set_rows(v, glm::dmat3(1), light.position, origin);
   const double across = std::max({box.cells.x, box.cells.y, box.cells.z});
-  set_nodes(v, {-1, -1, 0}, {1, 1, farthest}, {across, across, farthest / box.cell});
+  const double planes = std::ceil(f64::cube_plane_number(farthest / box.cell));
+  set_nodes(v, {-1, -1, 0}, {1, 1, farthest}, {across, across, planes});
+  v.scale.z = static_cast<float>(1 / box.cell);
   return v;
 }
 

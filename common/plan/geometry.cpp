@@ -116,7 +116,7 @@ std::vector<Material> materials_of(const Scene& scene) {
 
 std::vector<GaussianDensity> gaussians_of(const Scene& scene) { return gaussians_of(scene, scene.camera.position); }
 
-std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& origin) {
+std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& origin, double lost_depth) {
   std::vector<GaussianDensity> gaussians;
   for (const Gaussian& from : scene.medium.gaussians) {
     if (!(from.extinction > 0)) continue;
@@ -127,7 +127,7 @@ std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& 
     to.albedo = from.albedo;
     to.emission = from.emission;
     const double whole = from.extinction * from.radius * std::sqrt(std::numbers::pi);
-    const f32::Float radii = f32::sqrt(f32::log_(1e5 * std::max(whole, 1.0)));
+    const f32::Float radii = f32::sqrt(f32::log_(std::max(whole, 1.0) / lost_depth));
     to.reach = to.radius * radii.v;
     gaussians.push_back(to);
   }

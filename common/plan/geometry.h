@@ -17,11 +17,12 @@ View view_of(const Scene&, const FrameRequest&);
 // Lights of non-zero power only where `index` is given: position in the scene of each light returned.
 std::vector<Light> lights_of(const Scene&, std::vector<std::size_t>* index = nullptr);
 std::vector<Material> materials_of(const Scene&);
-// Gaussians of non-zero extinction, each with the distance at which a chord's optical depth falls below 1e-5, and below 1e-5 of
-// its own.
+// Gaussians of non-zero extinction, each with its reach: a way that stays beyond it, or a part of one that does, loses less than
+// `lost_depth` of optical depth there, and less than that share of the Gaussian's own (Zhou et al. 2007, eq. 30).
+constexpr double least_lost_depth = 1e-5;
 std::vector<GaussianDensity> gaussians_of(const Scene&);
 // Seen from a place of one's own, not from the camera.
-std::vector<GaussianDensity> gaussians_of(const Scene&, const glm::dvec3& origin);
+std::vector<GaussianDensity> gaussians_of(const Scene&, const glm::dvec3& origin, double lost_depth = least_lost_depth);
 Light light_of(const LightSource&, const glm::dvec3& origin);
 
 // The surfaces as one list of triangles, laid out as SurfaceVisibility wants it. The three uploads are made on demand.

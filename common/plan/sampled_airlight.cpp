@@ -58,7 +58,8 @@ March depth_alone(March a) {
   for (GaussianDensity& g : a.gaussians) g.emission = glm::vec3(0);
   a.volumes = {};
   a.per_light = {};
-  if constexpr (requires { a.depths.clear(); }) a.depths.clear(), a.depth_volumes.clear(), a.light_depth = LightDepth::analytic;
+  a.depths.clear(), a.depth_volumes.clear();
+  if constexpr (requires { a.light_depth; }) a.light_depth = LightDepth::analytic;
   if constexpr (requires { a.sources; }) a.sources = {};
   return a;
 }

@@ -133,4 +133,16 @@ ShadowVolumesView::ShadowVolumesView(std::span<const std::byte> bytes, std::size
   edges = {reinterpret_cast<const ShadowEdge*>(rest.data()), rest.size() / sizeof(ShadowEdge)};
 }
 
+TileCount count_tiles(const View& view, const ShadowVolumesView& volumes, int side) {
+  const auto along = [side](int pixels) { return static_cast<std::size_t>((pixels + side - 1) / side); };
+  std::vector<char> touched(along(view.extent.width) * along(view.extent.height));
+  const ScreenRays rays(view);
+  for (const ShadowLight& light : volumes.lights) {
+    ShadowQuads quads;
+    quads.make(rays, light, volumes.of(light), side);
+    for (std::size_t t = 0; t < touched.size(); ++t) touched[t] |= !quads.of_tile(t).empty();
+  }
+  return {touched.size(), static_cast<std::size_t>(std::count(touched.begin(), touched.end(), 0))};
+}
+
 }  // namespace airlight

@@ -65,4 +65,11 @@ struct ShadowVolumesView {
   }
 };
 
+// How many tiles of `side` pixels the image has, and how many of them no plane of any light touches: what a light reaches is one
+// answer for all of such a tile.
+struct TileCount {
+  std::size_t all = 0, without_planes = 0;
+};
+TileCount count_tiles(const View&, const ShadowVolumesView&, int side);
+
 }  // namespace airlight

@@ -66,11 +66,11 @@ double depth_to_light(const RelativeMedium& medium, const glm::dvec3& point, con
   return sum;
 }
 
-RayInMedium::RayInMedium(const RelativeMedium& medium, const glm::dvec3& direction, double length)
-    : medium_(medium), direction_(direction), length_(length) {
+RayInMedium::RayInMedium(const RelativeMedium& medium, const glm::dvec3& origin, const glm::dvec3& direction, double length)
+    : medium_(medium), origin_(origin), direction_(direction), length_(length) {
   double most = 0, end = 0;
   for (const Gaussian& g : medium.gaussians) {
-    const OnRay on_ray{GaussianOnLine(g, glm::dvec3(0), direction), &g};
+    const OnRay on_ray{GaussianOnLine(g, origin, direction), &g};
     const double depth = on_ray.line.depth(0, length);
     if (!(depth > 0)) continue;
     on_ray_.push_back(on_ray);
@@ -79,7 +79,7 @@ RayInMedium::RayInMedium(const RelativeMedium& medium, const glm::dvec3& directi
   }
   // A Gaussian this much thinner than another is below rounding, even one next to the light (1/r^2 up to 1e12 in metres).
   std::erase_if(on_ray_, [&](const OnRay& o) { return o.line.depth(0, length) < 1e-30 * most; });
-  if (medium.field) grid_.emplace(*medium.field, glm::dvec3(0), direction, length);
+  if (medium.field) grid_.emplace(*medium.field, origin, direction, length);
   if (grid_ && grid_->empty()) grid_.reset();
   if (grid_) end = std::max(end, grid_->end());
   reach_ = std::min(length, medium.extinction > 0 ? black / medium.extinction : end);
@@ -121,16 +121,16 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
       if (medium_.extinction > 0) t.insert(t.end(), {foot - depth / medium_.extinction, foot + depth / medium_.extinction});
     }
   }
-  const glm::dvec3 to_light = light.directional ? -light.vector : light.vector;
+  const glm::dvec3 to_light = light.way_from(origin_);
   const double along = glm::dot(direction_, to_light);
   const glm::dvec3 across = to_light - along * direction_;
   const double height = glm::length(across);
   if (!(height > 1e-12 * glm::length(to_light))) return;
   for (const Gaussian& g : medium_.gaussians) {
-    const double y = glm::dot(g.center, across) / height;
+    const double y = glm::dot(g.center - origin_, across) / height;
     if (y <= 0 || (!light.directional && y >= height)) continue;
     for (const double radii : {-4.0, -1.5, 0.0, 1.5, 4.0}) {
-      const double x = glm::dot(g.center, direction_) + radii * g.radius;
+      const double x = glm::dot(g.center - origin_, direction_) + radii * g.radius;
       t.push_back(light.directional ? x - y * along / height : along + (x - along) * (height / (height - y)));
     }
   }
@@ -153,7 +153,7 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
 // evenly in the angle at a point light, evenly along the ray for a directional one. A grid that scatters alone has its own
 // breaks.
 void RayInMedium::add_grid_breaks(const RelativeLight& light, std::vector<double>& t) const {
-  const ShadowPlane plane(direction_, length_, light);
+  const ShadowPlane plane(origin_, direction_, length_, light);
   if (plane.degenerate()) return;
   static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
@@ -168,7 +168,7 @@ void RayInMedium::add_grid_breaks(const RelativeLight& light, std::vector<double
   if (!(all.first < all.second)) return;
   const glm::ivec3 pieces = medium_.field->pieces();
   const int count = (pieces.x + pieces.y + pieces.z) / 4 + 1;
-  const double foot = plane.foot(), height = glm::length(light.vector - foot * direction_);
+  const double foot = plane.foot(), height = glm::length(light.vector - origin_ - foot * direction_);
   const double from = light.directional ? all.first : std::atan2(all.first - foot, height);
   const double to = light.directional ? all.second : std::atan2(all.second - foot, height);
   for (int i = 0; i <= count; ++i) {
@@ -190,14 +190,15 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
         [&](double x) {
           const glm::dvec3 scattered = scattering(x);
           if (scattered == glm::dvec3(0)) return scattered;  // the way to the light is long to compute
-          const double tau = depth(x) + depth_to_light(medium_, x * direction_, light, 0);
+          const double tau = depth(x) + depth_to_light(medium_, origin_ + x * direction_, light, 0);
           return phase * std::exp(-tau) * scattered;
         },
         pieces_of(shadow, t, reach_), tolerance);
   } else {
     // t = foot + h sinh(s) takes the peak of 1/r^2 away: r = h cosh(s), dt/r^2 = ds / r; and no digits are lost far from it.
-    const double foot = glm::dot(direction_, light.vector);
-    const double h = std::max(glm::length(light.vector - foot * direction_), light.radius);
+    const glm::dvec3 way = light.vector - origin_;
+    const double foot = glm::dot(direction_, way);
+    const double h = std::max(glm::length(way - foot * direction_), light.radius);
     std::vector<double> t = breaks();
     add_light_breaks(light, foot, t);
     std::vector<double> pieces = pieces_of(shadow, t, reach_);
@@ -207,7 +208,7 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
           const double x = foot + h * std::sinh(s), r = h * std::cosh(s);
           const glm::dvec3 scattered = scattering(x);
           if (scattered == glm::dvec3(0)) return scattered;
-          const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, x * direction_, light, r);
+          const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, origin_ + x * direction_, light, r);
           return f64::phase_value(kind, g, -std::tanh(s)) * std::exp(-tau) / r * scattered;
         },
         pieces, tolerance);

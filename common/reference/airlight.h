@@ -1,4 +1,4 @@
-// What the medium adds to a view ray and takes from it, by quadrature in double. Independent of common/formulas/airlight.h and
+// What the medium adds to a ray and takes from it, by quadrature in double. Independent of common/formulas/airlight.h and
 // its tables: nothing here knows the boundary functions.
 #pragma once
 
@@ -21,15 +21,15 @@ struct RelativeMedium : Medium {
   RelativeMedium(const Medium&, const glm::dvec3& camera);
 };
 
-// A view ray from the camera through the medium.
+// A ray through the medium: a view ray from the camera, or one that arrives at a surface.
 class RayInMedium {
  public:
   // `medium` must outlive this; unit direction; length [m], may be infinite.
-  RayInMedium(const RelativeMedium& medium, const glm::dvec3& direction, double length);
+  RayInMedium(const RelativeMedium& medium, const glm::dvec3& origin, const glm::dvec3& direction, double length);
 
-  double depth(double t) const;  // T(camera, t) [1]; infinite where it is
+  double depth(double t) const;  // optical depth from the origin to t [1]; infinite where it is
   double depth() const { return depth(length_); }
-  double reach() const { return reach_; }  // [m] no farther than the length: beyond it nothing scatters toward the camera
+  double reach() const { return reach_; }  // [m] no farther than the length: beyond it nothing scatters toward the origin
 
   // Single scattering of one light where it is not in `shadow` (common/reference/visibility.h) [W/m^2/sr].
   Integral scattered(const RelativeLight&, const std::vector<Interval>& shadow, double tolerance) const;
@@ -48,7 +48,7 @@ class RayInMedium {
   void add_grid_breaks(const RelativeLight&, std::vector<double>&) const;
 
   const RelativeMedium& medium_;
-  glm::dvec3 direction_;
+  glm::dvec3 origin_, direction_;
   double length_ = 0, reach_ = 0;
   std::vector<OnRay> on_ray_;       // those that are not negligible
   std::optional<GridOnLine> grid_;  // where the ray meets it

@@ -1,5 +1,6 @@
-// Indirect single scattering on surfaces in double: of the unbounded homogeneous medium without shadows, by definition.
-// Independent of common/formulas/surface_airlight.h and its tables.
+// Indirect single scattering on surfaces in double: of the unbounded homogeneous medium without shadows, as the techniques take
+// it to be. What surfaces end and shadow is in indirect_exact.h. Independent of common/formulas/surface_airlight.h and its
+// tables.
 #pragma once
 
 #include <glm/vec3.hpp>

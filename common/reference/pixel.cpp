@@ -8,6 +8,7 @@
 
 #include "common/formulas/double.h"
 #include "common/reference/indirect.h"
+#include "common/reference/indirect_exact.h"
 
 namespace airlight {
 
@@ -30,7 +31,7 @@ Reference::Seen Reference::look(const glm::dvec3& d) const {
   Seen seen;
   seen.direction = d;
   const double near_plane = static_cast<double>(View{}.near_plane) / glm::dot(d, forward_);
-  const auto hit = visibility_.nearest(d, near_plane);
+  const auto hit = visibility_.nearest(glm::dvec3(0), d, near_plane);
   if (!hit) return seen;
   const Triangles& all = visibility_.triangles();
   const auto& t = all[hit->triangle];
@@ -52,7 +53,7 @@ Reference::Seen Reference::look(const glm::dvec3& d) const {
 }
 
 bool Reference::lit(const Seen& seen, const RelativeLight& light) const {
-  const glm::dvec3 way = light.directional ? -light.vector : light.vector - seen.point;
+  const glm::dvec3 way = light.way_from(seen.point);
   if (!(glm::dot(seen.normal, way) > 0)) return false;
   return !settings_.shadows || !visibility_.blocked(seen.point, seen.triangle, light);
 }
@@ -65,7 +66,20 @@ double Reference::irradiance(const Seen& seen, const RelativeLight& light) const
   return std::exp(-depth_to_light(medium_, seen.point, light, length)) / (light.directional ? 1 : r * r);
 }
 
-void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pixel) const {
+// Of one light [W/m^2/sr].
+Integral Reference::indirect(const Seen& seen, const glm::dvec3& mirror, const RelativeLight& light) const {
+  const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
+  if (settings_.indirect == Indirect::exact) {
+    const glm::dvec3 face = glm::dot(seen.face, seen.direction) > 0 ? -seen.face : seen.face;
+    return exact_indirect(medium_, visibility_, light, {seen.point, seen.normal, face, mirror, seen.triangle, &material},
+                          settings_.shadows, settings_.indirect_tolerance);
+  }
+  if (settings_.indirect == Indirect::off || !(medium_.extinction > 0)) return {};
+  return {indirect_reflection(medium_, light, seen.point, seen.normal, mirror, material) * light.power * medium_.albedo,
+          glm::dvec3(0)};
+}
+
+void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pixel, glm::dvec3& error) const {
   if (!seen.hit) {
     pixel.surface = pixel.transmittance * scene_.background;
     return;
@@ -73,13 +87,12 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
   const glm::dvec3 mirror = d - 2 * glm::dot(d, seen.normal) * seen.normal;
   for (const RelativeLight& light : lights_) {
-    if (settings_.indirect && medium_.extinction > 0) {
-      pixel.surface_indirect +=
-          indirect_reflection(medium_, light, seen.point, seen.normal, mirror, material) * light.power * medium_.albedo;
-    }
+    const Integral scattered = indirect(seen, mirror, light);
+    pixel.surface_indirect += scattered.value;
+    error += pixel.transmittance * scattered.error;
     const double e = irradiance(seen, light);
     if (!(e > 0)) continue;
-    const glm::dvec3 to_light = glm::normalize(light.directional ? -light.vector : light.vector - seen.point);
+    const glm::dvec3 to_light = glm::normalize(light.way_from(seen.point));
     const double cosine = glm::dot(seen.normal, to_light);
     const glm::dvec3 reflection =
         f64::lambert(cosine) * glm::dvec3(material.diffuse) +
@@ -103,35 +116,37 @@ ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferencePar
   pixel.normal = seen.normal;
   pixel.surface_index = seen.surface;
   const double sky = scene_.sky_distance < 1e30 ? scene_.sky_distance : std::numeric_limits<double>::infinity();
-  const RayInMedium ray(medium_, d, seen.hit ? seen.distance : sky);
+  const RayInMedium ray(medium_, glm::dvec3(0), d, seen.hit ? seen.distance : sky);
   const double tau = ray.depth();
   pixel.optical_depth = std::min(tau, 1e30);
   pixel.transmittance = std::exp(-tau);
-  if (parts.surface) shade(d, seen, pixel);
-  if (!parts.airlight) return pixel;
-
   glm::dvec3 error(0);
-  for (const RelativeLight& light : lights_) {
-    const auto shadow = settings_.shadows ? visibility_.shadows(d, ray.reach(), light) : std::vector<Interval>();
-    const Integral part = ray.scattered(light, shadow, settings_.tolerance);
-    pixel.airlight_of_light.push_back(part.value);
-    pixel.airlight += part.value;
-    error += part.error;
-  }
-  const Integral emitted = ray.emitted(settings_.tolerance);
-  pixel.airlight += emitted.value - std::expm1(-tau) * medium_.ambient;
-  error += emitted.error;
+  if (parts.surface) shade(d, seen, pixel, error);
+  if (parts.airlight) add_airlight(d, ray, pixel, error);
   for (int c = 0; c < 3; ++c) {
     if (error[c] > 0) pixel.error = std::max(pixel.error, error[c] / pixel.beauty()[c]);
   }
   return pixel;
 }
 
+void Reference::add_airlight(const glm::dvec3& d, const RayInMedium& ray, ReferencePixel& pixel, glm::dvec3& error) const {
+  for (const RelativeLight& light : lights_) {
+    const auto shadow = settings_.shadows ? visibility_.shadows(glm::dvec3(0), d, ray.reach(), light) : std::vector<Interval>();
+    const Integral part = ray.scattered(light, shadow, settings_.tolerance);
+    pixel.airlight_of_light.push_back(part.value);
+    pixel.airlight += part.value;
+    error += part.error;
+  }
+  const Integral emitted = ray.emitted(settings_.tolerance);
+  pixel.airlight += emitted.value - std::expm1(-ray.depth()) * medium_.ambient;
+  error += emitted.error;
+}
+
 std::vector<Interval> Reference::shadows(glm::dvec2 at, Extent extent, std::size_t light) const {
   const glm::dvec3 d = direction(at, extent);
   const Seen seen = look(d);
-  const RayInMedium ray(medium_, d, seen.hit ? seen.distance : scene_.sky_distance);
-  return visibility_.shadows(d, ray.reach(), lights_.at(light));
+  const RayInMedium ray(medium_, glm::dvec3(0), d, seen.hit ? seen.distance : scene_.sky_distance);
+  return visibility_.shadows(glm::dvec3(0), d, ray.reach(), lights_.at(light));
 }
 
 }  // namespace airlight

@@ -48,8 +48,8 @@ Piece measure(const std::function<glm::dvec3(double)>& f, double begin, double e
 
 }  // namespace
 
-Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector<double>& ends, double tolerance) {
-  constexpr std::size_t most = 20000;
+Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector<double>& ends, double tolerance,
+                   const glm::dvec3& enough, std::size_t most) {
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) pieces.push_back(measure(f, ends[i], ends[i + 1]));
   for (;;) {
@@ -58,7 +58,7 @@ Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector
       sum.value += p.value;
       sum.error += p.error;
     }
-    const glm::dvec3 allowed = tolerance * glm::abs(sum.value) + 1e-300;
+    const glm::dvec3 allowed = glm::max(tolerance * glm::abs(sum.value), enough) + 1e-300;
     const auto within = [](const glm::dvec3& error, const glm::dvec3& limit) {
       return error.x <= limit.x && error.y <= limit.y && error.z <= limit.z;
     };

@@ -1,6 +1,7 @@
 // Adaptive Gauss-Kronrod quadrature of three channels at once.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -29,8 +30,9 @@ struct Integral {
 };
 
 // Sum of the integrals of f over [breaks[i], breaks[i+1]] for even i (a list of separate pieces), halved where needed until
-// in each channel the estimated error is at most tolerance * |value|, or 20000 pieces are reached (the error tells).
+// in each channel the estimated error is at most tolerance * |value| or `enough`, or `most` pieces are reached (the error tells).
 // Deterministic.
-Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector<double>& pieces, double tolerance);
+Integral integrate(const std::function<glm::dvec3(double)>& f, const std::vector<double>& pieces, double tolerance,
+                   const glm::dvec3& enough = glm::dvec3(0), std::size_t most = 20000);
 
 }  // namespace airlight

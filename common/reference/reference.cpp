@@ -79,6 +79,11 @@ void put_all(std::map<std::string, HostImage>& images, const Scene& scene, int x
   }
 }
 
+Indirect indirect_of(std::string_view choice) {
+  if (choice == "off") return Indirect::off;
+  return choice == "exact" ? Indirect::exact : Indirect::unbounded;
+}
+
 }  // namespace
 
 double ReferenceFrame::edge_share() const {
@@ -96,7 +101,7 @@ ReferenceFrame reference_frame(const Scene& scene, Extent extent, const Referenc
   std::vector<char> edges(with_edges ? width * height : 0);  // bytes: threads write neighbouring ones
   each_row(extent.height, threads, progress, [&](int y) {
     for (int x = 0; x < extent.width; ++x) {
-      if (x % 32 == 0) progress.check();
+      if (x % 32 == 0 || settings.indirect == Indirect::exact) progress.check();
       const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
       const glm::dvec2 at(x + 0.5, y + 0.5);
       frame.pixels[i] = reference.pixel(at, extent);
@@ -112,7 +117,7 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
                                                   Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
-                                   request.knobs.choice("indirect") == "unbounded"};
+                                   indirect_of(request.knobs.choice("indirect")), request.knobs.number("indirect_tolerance")};
   const Reference reference(scene, settings);
   const ReferenceParts parts{wanted(request, "surface"), wanted(request, "airlight")};
   std::map<std::string, HostImage> images;
@@ -122,7 +127,7 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
   const auto edge = images.find("edge");
   each_row(request.extent.height, threads, progress, [&](int y) {
     for (int x = 0; x < request.extent.width; ++x) {
-      if (x % 32 == 0) progress.check();
+      if (x % 32 == 0 || settings.indirect == Indirect::exact) progress.check();
       const glm::dvec2 at(x + 0.5 + request.offset.x, y + 0.5 + request.offset.y);
       put_all(images, scene, x, y, reference.pixel(at, request.extent, parts));
       if (edge != images.end()) edge->second.at(x, y) = reference.edge(at, request.extent) ? 1.0F : 0.0F;

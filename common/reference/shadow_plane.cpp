@@ -17,9 +17,9 @@ bool precedes(const glm::dvec3& a, const glm::dvec3& b) { return std::tie(a.x, a
 
 }  // namespace
 
-ShadowPlane::ShadowPlane(const glm::dvec3& direction, double length, const RelativeLight& light)
-    : along_(direction), directional_(light.directional) {
-  const glm::dvec3 to_light = directional_ ? -light.vector : light.vector;
+ShadowPlane::ShadowPlane(const glm::dvec3& origin, const glm::dvec3& direction, double length, const RelativeLight& light)
+    : origin_(origin), along_(direction), directional_(light.directional) {
+  const glm::dvec3 to_light = light.way_from(origin);
   const double along = glm::dot(direction, to_light);
   const glm::dvec3 across = to_light - along * direction;
   const double distance = glm::length(across);
@@ -49,7 +49,7 @@ ShadowPlane::ShadowPlane(const glm::dvec3& direction, double length, const Relat
 
 bool ShadowPlane::meets(const Triangles::Box& box) const {
   const glm::dvec3 low(box.low[0], box.low[1], box.low[2]), high(box.high[0], box.high[1], box.high[2]);
-  const glm::dvec3 middle = 0.5 * low + 0.5 * high, half = 0.5 * high - 0.5 * low;
+  const glm::dvec3 middle = 0.5 * low + 0.5 * high - origin_, half = 0.5 * high - 0.5 * low;
   const auto reach = [&](const glm::dvec3& n) {
     return std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z;
   };
@@ -90,7 +90,8 @@ void ShadowPlane::add_shadow(Point p, Point q, Interval& shadow) const {
   }
 }
 
-Interval ShadowPlane::shadow(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
+Interval ShadowPlane::shadow(const glm::dvec3& pa, const glm::dvec3& pb, const glm::dvec3& pc) const {
+  const glm::dvec3 a = pa - origin_, b = pb - origin_, c = pc - origin_;
   const glm::dvec3* corner[3] = {&a, &b, &c};
   const double side[3] = {glm::dot(normal_, a), glm::dot(normal_, b), glm::dot(normal_, c)};
   Point points[6];

@@ -12,8 +12,8 @@ namespace airlight {
 // comes from (cosine, sine).
 class ShadowPlane {
  public:
-  // Ray from the camera along a unit direction over 0..length (may be infinite).
-  ShadowPlane(const glm::dvec3& direction, double length, const RelativeLight&);
+  // Ray from a point along a unit direction over 0..length (may be infinite).
+  ShadowPlane(const glm::dvec3& origin, const glm::dvec3& direction, double length, const RelativeLight&);
 
   // Ray and light in one line, so that there is no such plane.
   bool degenerate() const { return degenerate_; }
@@ -39,7 +39,7 @@ class ShadowPlane {
   Point crossing(const glm::dvec3& a, double side_a, const glm::dvec3& b, double side_b) const;
   void add_shadow(Point, Point, Interval&) const;
 
-  glm::dvec3 along_, toward_, normal_;
+  glm::dvec3 origin_, along_, toward_, normal_;
   double foot_ = 0, height_ = 0;  // point light; height is infinite for a directional one
   double cosine_ = 0, sine_ = 0;  // directional light
   bool directional_ = false, degenerate_ = false;

@@ -64,12 +64,14 @@ Visibility::Visibility(const Scene& scene) : triangles_(scene) {
   }
 }
 
-std::optional<Hit> Visibility::nearest(const glm::dvec3& direction, double from) const {
+std::optional<Hit> Visibility::nearest(const glm::dvec3& origin, const glm::dvec3& direction, double from,
+                                       std::uint32_t own) const {
   Hit best{infinity, 0};
-  triangles_.walk(LineMeets(glm::dvec3(0), direction, from, best.distance), [&](std::uint32_t i) {
+  triangles_.walk(LineMeets(origin, direction, from, best.distance), [&](std::uint32_t i) {
+    if (i == own) return true;
     const auto& t = triangles_[i];
     const double at =
-        line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
+        line_triangle(origin, direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
     if (at >= from && (at < best.distance || (at == best.distance && i < best.triangle))) best = {at, i};
     return true;
   });
@@ -79,7 +81,7 @@ std::optional<Hit> Visibility::nearest(const glm::dvec3& direction, double from)
 
 bool Visibility::blocked(const glm::dvec3& point, std::uint32_t own, const RelativeLight& light) const {
   if (!any_caster_) return false;
-  const glm::dvec3 way = light.directional ? -light.vector : light.vector - point;
+  const glm::dvec3 way = light.way_from(point);
   const double length = glm::length(way);
   if (length == 0) return false;
   // Triangles that share an edge or vertex with this one touch the ray at its start.
@@ -96,12 +98,13 @@ bool Visibility::blocked(const glm::dvec3& point, std::uint32_t own, const Relat
   return found;
 }
 
-std::vector<Interval> Visibility::shadows(const glm::dvec3& direction, double length, const RelativeLight& light) const {
+std::vector<Interval> Visibility::shadows(const glm::dvec3& origin, const glm::dvec3& direction, double length,
+                                          const RelativeLight& light) const {
   if (!any_caster_ || !(length > 0)) return {};
-  const ShadowPlane plane(direction, length, light);
+  const ShadowPlane plane(origin, direction, length, light);
   std::vector<Interval> found;
   if (plane.degenerate()) {
-    found = shadows_along_light(direction, light, plane.foot());
+    found = shadows_along_light(origin, direction, light, plane.foot());
   } else {
     triangles_.walk([&](const Triangles::Box& box) { return plane.meets(box); },
                     [&](std::uint32_t i) {
@@ -129,15 +132,15 @@ std::vector<Interval> Visibility::shadows(const glm::dvec3& direction, double le
 }
 
 // The ray and the light in one line: a caster across it at t darkens all that lies behind it as seen from the light.
-std::vector<Interval> Visibility::shadows_along_light(const glm::dvec3& direction, const RelativeLight& light,
-                                                      double foot) const {
+std::vector<Interval> Visibility::shadows_along_light(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                      const RelativeLight& light, double foot) const {
   const double source = light.directional ? (glm::dot(light.vector, direction) < 0 ? infinity : -infinity) : foot;
   std::vector<Interval> found;
-  triangles_.walk(LineMeets(glm::dvec3(0), direction, -infinity, infinity), [&](std::uint32_t i) {
+  triangles_.walk(LineMeets(origin, direction, -infinity, infinity), [&](std::uint32_t i) {
     if (!casts(i)) return true;
     const auto& t = triangles_[i];
     const double at =
-        line_triangle(glm::dvec3(0), direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
+        line_triangle(origin, direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
     if (at < source) found.emplace_back(-infinity, at);
     if (at > source) found.emplace_back(at, infinity);
     return true;

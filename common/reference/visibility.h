@@ -27,6 +27,9 @@ struct RelativeLight {
   bool directional = false;
 
   RelativeLight(const LightSource&, const glm::dvec3& camera);
+
+  // To the position of a point light; of a directional one, a unit vector.
+  glm::dvec3 way_from(const glm::dvec3& point) const { return directional ? -vector : vector - point; }
 };
 
 class Visibility {
@@ -35,19 +38,23 @@ class Visibility {
 
   const Triangles& triangles() const { return triangles_; }
 
-  // The nearest triangle on a ray from the camera along a unit direction, no nearer than `from` [m]. Edges belong to both their
-  // triangles, so that no ray slips between two of them; of equal distances the lower triangle wins.
-  std::optional<Hit> nearest(const glm::dvec3& direction, double from) const;
+  static constexpr std::uint32_t no_triangle = 0xffffffff;
+
+  // The nearest triangle but `own` on a ray from a point along a unit direction, no nearer than `from` [m]. Edges belong to both
+  // their triangles, so that no ray slips between two of them; of equal distances the lower triangle wins.
+  std::optional<Hit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, double from,
+                             std::uint32_t own = no_triangle) const;
 
   // Whether a caster other than triangle `own` stands between a surface point and the light.
   bool blocked(const glm::dvec3& point, std::uint32_t own, const RelativeLight&) const;
 
-  // The parts of the ray (camera, unit direction, 0..length) that casters keep the light from: sorted, disjoint, clipped to it.
+  // The parts of the ray (origin, unit direction, 0..length) that casters keep the light from: sorted, disjoint, clipped to it.
   // Exact: each triangle cuts the plane through ray and light in a segment, which the light projects onto the ray.
-  std::vector<Interval> shadows(const glm::dvec3& direction, double length, const RelativeLight&) const;
+  std::vector<Interval> shadows(const glm::dvec3& origin, const glm::dvec3& direction, double length, const RelativeLight&) const;
 
  private:
-  std::vector<Interval> shadows_along_light(const glm::dvec3& direction, const RelativeLight&, double foot) const;
+  std::vector<Interval> shadows_along_light(const glm::dvec3& origin, const glm::dvec3& direction, const RelativeLight&,
+                                            double foot) const;
   bool casts(std::uint32_t triangle) const { return casts_[triangles_[triangle].surface]; }
 
   Triangles triangles_;

@@ -5,6 +5,20 @@
 
 namespace airlight {
 
+namespace {
+
+Knob exact_indirect_knob() {
+  Knob knob = indirect_knob();
+  knob.choices.push_back("exact");
+  knob.meaning =
+      "light scattered once on its way to surfaces: of an unbounded homogeneous medium without shadows, as techniques render it, "
+      "or "
+      "of what there is (seconds a pixel)";
+  return knob;
+}
+
+}  // namespace
+
 Technique reference_technique() {
   Technique t;
   t.name = "reference";
@@ -24,7 +38,15 @@ Technique reference_technique() {
        .choices = {"on", "off"},
        .meaning = "whether surfaces cast shadows on each other and into the medium",
        .sweep = {}},
-      indirect_knob(),
+      exact_indirect_knob(),
+      {.name = "indirect_tolerance",
+       .kind = Knob::Kind::number,
+       .standard = "1e-3",
+       .least = 1e-6,
+       .most = 1e-1,
+       .choices = {},
+       .meaning = "relative error of what indirect=exact brings to a pixel from each light",
+       .sweep = {}},
   };
   t.refuses = refuses_noise;
   return t;

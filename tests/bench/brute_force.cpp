@@ -28,7 +28,7 @@ Scene scene() {
 TEST(BruteForce, ConvergesToTheTruth) {
   const Scene s = scene();
   NoProgress progress;
-  const ReferenceFrame truth = reference_frame(s, extent, {1e-6, true, false}, true, 2, progress);
+  const ReferenceFrame truth = reference_frame(s, extent, {1e-6, true, Indirect::off}, true, 2, progress);
   const BruteForce brute(s, 2);
   std::vector<double> errors;
   for (const int steps : {8, 32, 128, 512}) {

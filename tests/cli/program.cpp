@@ -73,7 +73,8 @@ TEST_F(Program, WritesTheSameBytesWhateverRunsIt) {
 }
 
 TEST_F(Program, BeautyIsTheSumOfItsStoredParts) {
-  for (const std::string more : {"", " --supersample 2", " --technique reference --resolution 24x18"}) {
+  for (const std::string more : {"", " --supersample 2", " --technique reference --resolution 24x18",
+                                 " --technique reference --resolution 4x3 --set indirect=exact --set indirect_tolerance=0.1"}) {
     ASSERT_EQ(work.run("render scene.json -o fog.exr --aov surface,airlight" + more).code, 0);
     const std::vector<NamedImage> images = read_images(work.path("fog.exr").string());
     ASSERT_EQ(images.size(), 3U);
@@ -181,6 +182,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --backend gl --gl-context glx", 2, "osmesa");
   refused("render scene.json -o a.exr --backend gl --gl-context osmesa --gl-device 1", 3, "OSMesa");
   refused("render scene.json -o a.exr --backend gl --technique reference", 2, "reference");
+  refused("render scene.json -o a.exr --technique shadow-planes --set indirect=exact", 2, "unbounded | off");
   refused("render scene.json -o a.exr --technique radiosity", 2, "radiosity");
   refused("render scene.json -o a.exr --frames 0-9", 2, "--frames: not in this version");
   refused("view scene.json", 2, "view: not in this version");

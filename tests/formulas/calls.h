@@ -24,6 +24,7 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
 
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
   if (formula == 0) r[0] = exp_(a[0]);
+  if (formula == 48) r[0] = exp2_(a[0]);
   if (formula == 1) r[0] = log_(a[0]);
   if (formula == 2) r[0] = phase_value(kind, g, a[0]);
   if (formula == 3) r[0] = point_airlight(t, kind, g, a[0], a[1], a[2], a[3], a[4]);
@@ -75,7 +76,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 31) {
     real ra = sqrt(fma(a[0] - a[2], a[0] - a[2], a[3] * a[3]));
     real rb = sqrt(fma(a[1] - a[2], a[1] - a[2], a[3] * a[3]));
-    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3]);
+    r[0] = step_angle(a[0], a[1], ra, rb, a[2], a[3], 1.0 / a[3]);
     step_means(a[0], a[1], ra, rb, a[2], a[3], r[0], r[1], r[2]);
   }
   if (formula == 34) {
@@ -92,6 +93,10 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 44) r[0] = depth_beside(kind, a[0], a[1], a[2]);
   if (formula == 45) link_shares(a[0], a[1], r[0], r[1], r[2]);
   if (formula == 46) r[0] = source_in_volume(t, kind, a[0], a[1], a[2]);
+  if (formula == 47) {
+    r[0] = surface_airlight_point(t, a[0], a[1]);
+    r[1] = surface_airlight_directional(t, a[1]);
+  }
   if (formula == 60) {
     r[0] = upsampled(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
     r[1] = upsampling_error(abs(a[4]), abs(a[5]), abs(a[6]), abs(a[7]), a[8], a[9]);

@@ -46,6 +46,10 @@ Scene torus_among_gaussians() {
   return scene;
 }
 Case shadows_in_gaussians(Extent e) { return frame(torus_among_gaussians(), e, gaussian_airlight(), {{"samples", "3"}}); }
+Case looked_up_lights(Extent e) {
+  return frame(torus_among_gaussians(), e, gaussian_airlight(),
+               {{"samples", "2"}, {"light_path", "volume"}, {"light_cells", "1"}});
+}
 Case propagated(Extent e, const char* density, const char* scheme) {
   const Set set{{"resolution", "12"}, {"steps", "6"}, {"density", density}, {"scheme", scheme}};
   return frame(torus_among_gaussians(), e, opacity_propagation(), set);
@@ -64,6 +68,7 @@ std::span<const NamedCase> frame_cases() {
       {"frame/torus_in_clear_air", torus_in_clear_air},
       {"frame/empty_fog", empty_fog},
       {"frame/shadows_in_gaussians", shadows_in_gaussians},
+      {"frame/looked_up_lights", looked_up_lights},
       {"frame/marched_shadows", marched_shadows},
       {"frame/half_airlight",
        [](Extent e) {

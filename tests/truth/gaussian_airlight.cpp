@@ -21,6 +21,23 @@ Extent extent_for(const Scene& scene) {
   return n > 1000 ? Extent{8, 6} : n > 100 ? Extent{24, 18} : Extent{64, 48};
 }
 
+// Depths toward the lights from volumes, by default and of twice as many cells.
+void hold_volumes(const Scene& scene, Extent extent, const ReferenceFrame& truth, Renderer& renderer) {
+  for (const char* cells : {"3", "6"}) {
+    RenderSettings settings;
+    settings.technique = "gaussian-airlight";
+    settings.knobs = {{"samples", "8"}, {"light_path", "volume"}, {"light_cells", cells}};
+    settings.resolution = extent;
+    settings.images = {"airlight"};
+    const Frame frame = renderer.render(scene, settings);
+    const double error = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
+    std::printf("%s, samples 8, light_path=volume, light_cells %s: relative RMSE of the airlight %.5f %%\n", frame.device.c_str(),
+                cells, 100 * error);
+    EXPECT_FALSE(!(error < tolerance("truth_light_volumes"))) << frame.device;
+    if (scene.medium.gaussians.size() > 100) break;  // OpenGL may not hold more
+  }
+}
+
 class GaussianTruth : public testing::TestWithParam<TruthScene> {};
 
 // By default, and with two and a half times the cells and eight times the steps.
@@ -66,7 +83,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
   const Extent extent = extent_for(scene);
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, true}, true, threads, progress);
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, Indirect::unbounded}, true, threads, progress);
   std::printf("%zu Gaussians, %dx%d, truth claims %.1e\n", scene.medium.gaussians.size(), extent.width, extent.height,
               truth.error);
   EXPECT_FALSE(!(truth.error <= 1e-4));
@@ -78,7 +95,9 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
       if (backend == std::string("gl") && name != "4") continue;
       RenderSettings settings;
       settings.technique = "gaussian-airlight";
+      // By default as it comes, else with closed forms toward the lights.
       settings.knobs = {{"samples", name}};
+      if (name != "4") settings.knobs.emplace_back("light_path", "exact");
       settings.resolution = extent;
       settings.images = {"beauty", "airlight"};
       const Frame frame = renderer.render(scene, settings);
@@ -101,6 +120,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
       }
     }
     if (extent.width >= 64) hold_sampled(scene, extent, truth, renderer);
+    hold_volumes(scene, extent, truth, renderer);
     hold_propagation(scene, extent, truth, renderer, backend == std::string("cpu"));
     if (!casters) continue;
     // The comparison sees shadows.

@@ -133,7 +133,7 @@ struct Truth {
 Truth truth_of(const Scene& scene, int samples) {
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  const ReferenceFrame once = reference_frame(scene, extent, {1e-6, true, true}, true, threads, progress);
+  const ReferenceFrame once = reference_frame(scene, extent, {1e-6, true, Indirect::unbounded}, true, threads, progress);
   Truth truth;
   double squares = 0;
   Walk walk(scene);

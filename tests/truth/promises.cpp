@@ -24,7 +24,7 @@ TEST_P(Promises, AreKeptWithinAFactorOfTwo) {
   const Scene scene = GetParam().make();
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, true}, true, threads, progress);
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, Indirect::unbounded}, true, threads, progress);
   Renderer renderer({.backend = "cpu"});
   int kept = 0;
   for (const char* asked : {"10%", "3%", "1%", "0.3%", "0.1%", "0.03%"}) {

@@ -28,7 +28,7 @@ class PublishedOrder : public testing::TestWithParam<std::string> {
   Errors errors(const Scene& scene) {
     NoProgress progress;
     const int threads = static_cast<int>(std::thread::hardware_concurrency());
-    const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true, true}, true, threads, progress);
+    const ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true, Indirect::unbounded}, true, threads, progress);
     EXPECT_FALSE(!(truth.edge_share() <= tolerance("truth_edge_share")));
     const auto error = [&](const char* shadows) {
       RenderSettings settings;

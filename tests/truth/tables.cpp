@@ -3,12 +3,16 @@
 
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <map>
+#include <numbers>
 #include <sstream>
 
+#include "app/airlight.h"
 #include "common/reference/reference.h"
 #include "tests/csv.h"
+#include "tests/tolerances.h"
 #include "tests/truth/scenes.h"
 
 namespace airlight {
@@ -53,6 +57,37 @@ TEST(Tables, OpticalDepth) {
     worst = std::max(worst, error);
   }
   std::printf("optical_depth.csv: largest relative error %.2g\n", worst);
+}
+
+// What the program shows of the same ways: a picture of one pixel whose ray ends where the way does.
+TEST(Tables, OpticalDepthRendered) {
+  for (const char* backend : {"cpu", "gl"}) {
+    Renderer renderer({.backend = backend});
+    double worst = 0;
+    int rows = 0;
+    for (const auto& row : csv_rows("reference/optical_depth.csv")) {
+      const glm::dvec3 from = point_of(row[0]), to = point_of(row[1]);
+      Scene scene;
+      scene.camera = {.position = from, .look_at = to, .vertical_fov = 1, .resolution = {1, 1}};
+      if (std::fabs(glm::normalize(to - from).y) > 0.99) scene.camera.up = {1, 0, 0};
+      scene.sky_distance = glm::distance(from, to);
+      scene.medium.gaussians = gaussians_of(row[2]);
+      RenderSettings settings;
+      settings.technique = "gaussian-airlight";
+      settings.images = {"optical_depth"};
+      const double value = static_cast<double>(renderer.render(scene, settings).image("optical_depth").at(0, 0));
+      double whole = 0;  // of all lines through the centres
+      for (const Gaussian& g : scene.medium.gaussians) whole += g.extinction * g.radius * std::sqrt(std::numbers::pi);
+      const double error = std::fabs(value - std::stod(row[3])) / whole;
+      EXPECT_FALSE(!(error < tolerance("rendered_optical_depth")))
+          << backend << ' ' << row[0] << ": " << value << " instead of " << row[3];
+      worst = std::max(worst, error);
+      ++rows;
+    }
+    std::printf("optical_depth.csv by gaussian-airlight on %s: %d rows, largest error %.2g of the lines through the centres\n",
+                backend, rows, worst);
+    EXPECT_GT(rows, 100);
+  }
 }
 
 TEST(Tables, GaussianLineIntegral) {

@@ -66,7 +66,7 @@ void hold(const Scene& scene, const RenderSettings& asked, const ReferenceFrame&
 ReferenceFrame truth_of(const Scene& scene) {
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
-  ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true, true}, true, threads, progress);
+  ReferenceFrame truth = reference_frame(scene, extent, {1e-7, true, Indirect::unbounded}, true, threads, progress);
   const double share = truth.edge_share();
   std::printf("%dx%d, %.2f %% of the pixels at edges, truth claims %.1e\n", extent.width, extent.height, 100 * share,
               truth.error);

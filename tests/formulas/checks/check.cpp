@@ -14,6 +14,7 @@ std::vector<Check> all_checks() {
   add_reflection_checks(checks);
   add_grid_checks(checks);
   add_airlight_checks(checks);
+  add_surface_airlight_checks(checks);
   add_gaussian_checks(checks);
   add_marching_checks(checks);
   add_depth_volume_checks(checks);

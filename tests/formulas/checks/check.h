@@ -67,7 +67,9 @@ enum class Formula : int {
   injected_gaussian = 43,   // inverse radius, offset, cell
   depth_beside = 44,        // own, others, weights; the phase's kind is the scheme
   link_shares = 45,         // depth, all -> lost, given, kept
+  surface_airlight = 47,    // lambda, s -> of a point light, of a directional one; the table is one of surface_airlight_tables()
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
+  exp2 = 48,                 // x
   upsampled = 60,           // four samples, four bends, u, v -> value, what bends of that size add at most
   bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0) -> bend, size
   depth_fit = 62,           // inverse distance, of the sample, tolerance
@@ -129,6 +131,7 @@ void add_network_checks(std::vector<Check>&);
 void add_upsample_checks(std::vector<Check>&);
 void add_noise_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
+void add_surface_airlight_checks(std::vector<Check>&);
 
 // The nearest number that a float holds. volatile: GCC 12 leaves the two conversions out where it turns them into vector
 // instructions.

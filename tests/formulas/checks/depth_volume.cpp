@@ -85,8 +85,13 @@ Measured measure_lookup(const Run& run) {
         if (q[2] < 0.01) continue;  // behind the light or beside it
         q[0] /= q[2], q[1] /= q[2];
       }
+      double distance = (q[2] - first[2]) * scale[2];
       for (std::size_t k = 0; k < 3; ++k) q[k] = std::clamp((q[k] - first[k]) * scale[k], 0.0, n[k] - 1.0);
-      m.add(std::fabs(found[0][i] - value(face, q[0], q[1], q[2])) / 12, [&] {
+      if (kind == 3) {  // plane k is k^2 / (k + 8) away
+        distance = std::clamp(distance, 0.0, std::pow(n[2] - 1, 2) / (n[2] + 7));
+        q[2] = (distance + std::sqrt(distance * distance + 32 * distance)) / 2;
+      }
+      m.add(std::fabs(found[0][i] - (kind == 3 ? distance : 1) * value(face, q[0], q[1], q[2])) / (kind == 3 ? 30 : 12), [&] {
         return place({{"kind", static_cast<double>(kind)}, {"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
       });
     }

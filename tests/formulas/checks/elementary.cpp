@@ -25,6 +25,18 @@ Measured measure_exp(const Run& run) {
   return m;
 }
 
+Measured measure_exp2(const Run& run) {
+  Columns in(1);
+  for (int i = 0; i <= 1260000; ++i) in[0].push_back(as_float(-i * 1e-4));
+  for (int i = 0; i <= 400; ++i) in[0].push_back(as_float(-std::pow(2.0, -0.1 * i)));
+  const Columns found = run({Formula::exp2, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    m.add(ulps(found[0][i], std::exp2(in[0][i])), [&] { return place({{"x", in[0][i]}}); });
+  }
+  return m;
+}
+
 Measured measure_log(const Run& run) {
   Columns in(1);
   for (std::uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 1021)
@@ -87,6 +99,7 @@ Measured measure_atan(const Run& run) {
 
 void add_elementary_checks(std::vector<Check>& checks) {
   checks.push_back({"exp", measure_exp, "float_ulp_of_double", "exp_ulp"});
+  checks.push_back({"exp2", measure_exp2, "float_ulp_of_double", "exp2_ulp"});
   checks.push_back({"log", measure_log, "float_ulp_of_double", "log_ulp"});
   checks.push_back({"erf", measure_erf, "exact_double", "erf"});
   checks.push_back({"least_and_most", measure_least_and_most, "exact_double", "exact_double"});

@@ -1,0 +1,203 @@
+// airlight-gaussians: gaussian-airlight as tables for docs/RESULTS.md: the rows of Zhou et al.'s table 1 without an environment
+// map at their size; closed forms on the way to the lights beside volumes, time and error, by the number of Gaussians.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "app/airlight.h"
+#include "tests/parity/inputs.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr Extent full{800, 600}, quarter{200, 150};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// Steam that widens as it rises over a floor of hills with so many vertices an edge; lamps around it.
+Scene steam(int gaussians, int lights, unsigned vertices) {
+  Scene scene;
+  scene.camera = {.position = {0.4, 1.6, 5.2}, .look_at = {0, 1.1, 0}, .vertical_fov = 40};
+  scene.camera.resolution = full;
+  scene.sky_distance = 40;
+  const double radius = 1.6 / std::cbrt(gaussians + 20);
+  for (int i = 0; i < gaussians; ++i) {
+    const auto number = [&](std::uint32_t n) { return uniform(901, 5 * static_cast<std::uint32_t>(i) + n); };
+    const double up = number(0), off = (0.25 + 0.9 * up) * std::sqrt(number(1)), angle = 2 * std::numbers::pi * number(2);
+    const double size = radius * (0.7 + 0.6 * number(3));
+    scene.medium.gaussians.push_back({.center = {off * std::cos(angle), 0.2 + 2 * up, off * std::sin(angle)},
+                                      .radius = size,
+                                      .extinction = 8 * (0.3 + number(4)) / (size * std::pow(gaussians, 2.0 / 3) + 4)});
+  }
+  for (int i = 0; i < lights; ++i) {
+    LightSource lamp;
+    lamp.position = {2.5 * std::cos(2.4 * i), 2.2 + 0.2 * i, 2.5 * std::sin(2.4 * i)};
+    lamp.power = glm::dvec3(12) / static_cast<double>(lights);
+    scene.lights.push_back(lamp);
+  }
+  Mesh mesh;
+  for (unsigned j = 0; j < vertices; ++j) {
+    for (unsigned i = 0; i < vertices; ++i) {
+      const float x = 8 * static_cast<float>(i) / static_cast<float>(vertices - 1) - 4;
+      const float z = 7 * static_cast<float>(j) / static_cast<float>(vertices - 1) - 5;
+      mesh.positions.emplace_back(x, 0.1F * std::sin(3 * x) * std::cos(2 * z), z);
+      mesh.normals.push_back(glm::normalize(
+          glm::vec3(-0.3F * std::cos(3 * x) * std::cos(2 * z), 1, 0.2F * std::sin(3 * x) * std::sin(2 * z))));
+    }
+  }
+  for (unsigned j = 0; j + 1 < vertices; ++j) {
+    for (unsigned i = 0; i + 1 < vertices; ++i) {
+      const unsigned k = j * vertices + i;
+      mesh.triangles.emplace_back(k, k + vertices, k + 1);
+      mesh.triangles.emplace_back(k + 1, k + vertices, k + vertices + 1);
+    }
+  }
+  Surface hills;
+  hills.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  hills.casts_shadow = false;
+  scene.surfaces = {hills};
+  return scene;
+}
+
+struct Times {
+  double frame = 0, volumes = 0, airlight = 0;  // [ms]; the steps' of all threads together
+};
+
+RenderSettings settings_of(Extent extent, const char* light_path, const char* samples) {
+  RenderSettings settings;
+  settings.technique = "gaussian-airlight";
+  settings.knobs = {{"light_path", light_path}, {"samples", samples}};
+  settings.resolution = extent;
+  return settings;
+}
+
+// Of a camera that moves, and of lights and Gaussians that do.
+Times frame_times(const Scene& loaded, const RenderSettings& settings, bool all_moves, int frames,
+                  const std::string& backend = "cpu") {
+  Renderer renderer({.backend = backend});
+  std::vector<double> frame, volumes, airlight;
+  for (int i = -1; i < frames; ++i) {
+    Scene scene = loaded;
+    const double change = 1e-4 * (i + 2);
+    scene.camera.position.x += change;
+    if (all_moves) {
+      for (LightSource& l : scene.lights) l.position.y += change;
+      for (std::size_t g = 0; g < scene.medium.gaussians.size(); ++g)
+        scene.medium.gaussians[g].center.y += (g % 2 == 0 ? 1 : -1) * change;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const Frame made = renderer.render(scene, settings);
+    if (i < 0) continue;
+    frame.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    double of_volumes = 0, of_airlight = 0;
+    for (const StepStats& s : made.stats.steps) {
+      if (s.reused) continue;
+      if (s.name == "density_injection" || s.name == "optical_depth_propagation") of_volumes += 1e3 * s.seconds;
+      if (s.name == "gaussian_airlight") of_airlight += 1e3 * s.seconds;
+    }
+    volumes.push_back(of_volumes), airlight.push_back(of_airlight);
+  }
+  return {median(frame), median(volumes), median(airlight)};
+}
+
+double relative_rmse(const HostImage& image, const HostImage& truth) {
+  double error = 0, power = 0;
+  for (std::size_t i = 0; i < truth.values.size(); ++i) {
+    const auto t = static_cast<double>(truth.values[i]), d = static_cast<double>(image.values[i]) - t;
+    error += d * d, power += t * t;
+  }
+  return std::sqrt(error / power);
+}
+
+HostImage airlight_of(const Scene& scene, RenderSettings settings) {
+  settings.images = {"airlight"};
+  Renderer renderer({.backend = "cpu"});
+  return renderer.render(scene, settings).image("airlight");
+}
+
+void table_one() {
+  fmt::print("Zhou et al., table 1, 800 x 600: frames a second by airlight_resolution; the paper's has airlight at a quarter\n");
+  fmt::print("{:>10} {:>7} {:>9} {:>8} {:>12} {:>16} {:>16}\n", "Gaussians", "lights", "vertices", "paper", "airlight",
+             "only the camera", "all moves");
+  const auto row = [](int gaussians, int lights, unsigned side, int paper) {
+    const Scene scene = steam(gaussians, lights, side);
+    for (const char* resolution : {"full", "half", "quarter"}) {
+      RenderSettings settings = settings_of(full, "auto", "4");
+      settings.knobs.emplace_back("airlight_resolution", resolution);
+      fmt::print("{:10} {:7} {:9} {:8} {:>12} {:16.1f} {:16.1f}\n", gaussians, lights, side * side, paper, resolution,
+                 1e3 / frame_times(scene, settings, false, 5).frame, 1e3 / frame_times(scene, settings, true, 5).frame);
+    }
+  };
+  row(34, 3, 279, 101);
+  row(3008, 1, 100, 34);
+}
+
+void light_paths() {
+  fmt::print(
+      "\nThe way to one lamp by closed forms and by volume, 200 x 150, default knobs: frame ms when all moves, thread ms of "
+      "volumes and\n"
+      "airlight, relative RMSE of the airlight to closed forms and 12 nodes in percent\n");
+  fmt::print("{:>10} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "Gaussians", "path", "frame", "only cam.", "volumes",
+             "airlight", "RMSE", "12 nodes");
+  for (const int n : {4, 10, 30, 100, 300, 1000, 3000, 10000}) {
+    const Scene scene = steam(n, 1, 40);
+    const Extent small{40, 30};
+    const HostImage truth = airlight_of(scene, settings_of(small, "exact", "12"));
+    for (const char* path : {"exact", "volume"}) {
+      if (n > 3000 && std::string_view(path) == "exact") continue;
+      const RenderSettings settings = settings_of(quarter, path, "4");
+      const Times all = frame_times(scene, settings, true, 3), camera = frame_times(scene, settings, false, 3);
+      fmt::print("{:10} {:>8} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:10.3f} {:10.3f}\n", n, path, all.frame, camera.frame,
+                 all.volumes, all.airlight, 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "4")), truth),
+                 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "12")), truth));
+    }
+  }
+}
+
+// What a scene does not need, beside the same scene that needs it.
+void skips() {
+  fmt::print("\nWhat skips gain, 400 x 300, 300 Gaussians, 3 lamps, 4 nodes: frame ms with and without what is skipped\n");
+  fmt::print("{:<58} {:>10} {:>10} {:>8}\n", "", "with", "without", "ratio");
+  const Extent half{400, 300};
+  const auto row = [&](const char* what, const Scene& with, const Scene& without, bool all_with, bool all_without) {
+    const RenderSettings settings = settings_of(half, "auto", "4");
+    const double a = frame_times(with, settings, all_with, 5).frame, b = frame_times(without, settings, all_without, 5).frame;
+    fmt::print("{:<58} {:10.1f} {:10.1f} {:8.2f}\n", what, a, b, a / b);
+  };
+  const Scene whole = steam(300, 3, 100);
+  Scene changed = whole;
+  changed.camera.look_at = {0, 1.6, 20};
+  row("Gaussians behind the camera", whole, changed, true, true);
+  changed = whole;
+  for (std::size_t i = 0; i < changed.medium.gaussians.size(); i += 2) changed.medium.gaussians[i].extinction = 0;
+  row("half of the Gaussians without extinction", whole, changed, true, true);
+  changed = whole;
+  changed.lights[1].power = changed.lights[2].power = glm::dvec3(0);
+  row("two of the lights without power", whole, changed, true, true);
+  changed = whole;
+  changed.medium.extinction = 0.01;
+  row("homogeneous fog", changed, whole, true, true);
+  changed = whole;
+  changed.medium.noise = {.amplitude = 0.2, .scale = 0.4};
+  row("noise", changed, whole, true, true);
+  row("depths toward lights when only the camera moves", whole, whole, true, false);
+}
+
+}  // namespace
+
+}  // namespace airlight
+
+int main() {
+  airlight::table_one();
+  airlight::light_paths();
+  airlight::skips();
+  return 0;
+}
