@@ -49,8 +49,8 @@ Scene steam(int gaussians, int lights, unsigned vertices) {
       const float x = 8 * static_cast<float>(i) / static_cast<float>(vertices - 1) - 4;
       const float z = 7 * static_cast<float>(j) / static_cast<float>(vertices - 1) - 5;
       mesh.positions.emplace_back(x, 0.1F * std::sin(3 * x) * std::cos(2 * z), z);
-      mesh.normals.push_back(glm::normalize(
-          glm::vec3(-0.3F * std::cos(3 * x) * std::cos(2 * z), 1, 0.2F * std::sin(3 * x) * std::sin(2 * z))));
+      mesh.normals.push_back(
+          glm::normalize(glm::vec3(-0.3F * std::cos(3 * x) * std::cos(2 * z), 1, 0.2F * std::sin(3 * x) * std::sin(2 * z))));
     }
   }
   for (unsigned j = 0; j + 1 < vertices; ++j) {

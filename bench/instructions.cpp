@@ -1,8 +1,11 @@
 // The kernels of every parity case once each, for a tool that counts instructions: bench/instructions runs this under callgrind.
 //   airlight-instructions           runs all cases, names each on standard output before it runs
 //   airlight-instructions CASE...   runs these
+//   airlight-instructions --list    names all and runs none
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <string_view>
 
 #include "cpu/backend.h"
 #include "tests/parity/case.h"
@@ -18,7 +21,7 @@ namespace airlight {
 
 namespace {
 
-constexpr Extent extent{192, 128};  // three by two tiles
+constexpr Extent extent{128, 64};  // two tiles
 
 // AVX2 where there is: what every tool of its kind can follow.
 Simd counted_simd() {
@@ -43,6 +46,10 @@ void counted_run(Backend& backend, const Case& c) {
 int main(int argc, char** argv) {
   using namespace airlight;
   const std::vector<NamedCase> all = all_cases();
+  if (argc == 2 && std::string_view(argv[1]) == "--list") {
+    for (const NamedCase& c : all) std::printf("%s\n", std::string(c.name).c_str());
+    return 0;
+  }
   for (int i = 1; i < argc; ++i) {
     if (std::none_of(all.begin(), all.end(), [&](const NamedCase& c) { return c.name == argv[i]; })) {
       std::fprintf(stderr, "unknown case \"%s\", expected one of those that airlight-instructions prints\n", argv[i]);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "common/plan/gaussian_shadows.h"
+
 namespace airlight {
 
 namespace {
@@ -16,16 +18,7 @@ constexpr double horizon = 1e15;     // [m]
 constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
 // What finer panels are worth falls with what stands before them: after this many they are taken as they come.
 constexpr std::size_t many_panels = 1024;
-
-// cos(x) for x in 0..pi by its series: the same on every machine, where the C library's is not.
-double cosine(double x) {
-  double term = 1, sum = 1;
-  for (int k = 1; k < 20; ++k) {
-    term *= -x * x / ((2 * k - 1) * (2 * k));
-    sum += term;
-  }
-  return sum;
-}
+constexpr double sharing[2] = {64, 512};  // so many Gaussians of equal share make up for a node, and for two
 
 double squared(double x) { return x * x; }
 
@@ -49,41 +42,18 @@ double sharpness(const Phase& phase) {
   }
 }
 
-struct Sphere {
-  glm::dvec3 center;
-  double radius;
-};
-
 }  // namespace
 
-GaussLegendre::GaussLegendre(int n) : node(static_cast<std::size_t>(n)), weight(node.size()) {
-  for (int i = 0; i < n; ++i) {
-    double x = -cosine(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 8; ++iteration) {  // Newton's, on Legendre's polynomial
-      double before = 1, value = x;
-      for (int k = 2; k <= n; ++k) {
-        const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
-        before = value;
-        value = next;
-      }
-      slope = n * (before - x * value) / (1 - x * x);
-      x -= value / slope;
-    }
-    node[static_cast<std::size_t>(i)] = static_cast<float>(x);
-    weight[static_cast<std::size_t>(i)] = static_cast<float>(2 / ((1 - x * x) * slope * slope));
-  }
-}
-
-// The rays of the square: those within an angle of the axis.
+// The rays of a square: those within an angle of the axis.
 struct GaussianPanels::Cone {
   glm::dvec3 axis{0, 0, 1};
   double cos = 1, sin = 0;
 
-  Cone(const View& view, int x, int y) {
+  Cone(const View& view, int x, int y, int side) {
     const double w = view.extent.width, h = view.extent.height, t = static_cast<double>(view.tan_half_fov);
     glm::dvec3 corner[4];
     for (int k = 0; k < 4; ++k) {
-      const double across = x + (k % 2 == 0 ? 0 : bin_side), down = y + (k < 2 ? 0 : bin_side);
+      const double across = x + (k % 2 == 0 ? 0 : side), down = y + (k < 2 ? 0 : side);
       const double u = (2 * across / w - 1) * t * w / h, v = (1 - 2 * down / h) * t;
       corner[k] = glm::normalize(u * glm::dvec3(view.right) + v * glm::dvec3(view.up) + glm::dvec3(view.forward));
     }
@@ -110,6 +80,12 @@ struct GaussianPanels::Cone {
   }
   double least_distance(Place p) const { return std::max(0.0, p.beside * cos - std::fabs(p.along) * sin); }
 
+  bool meets(const GaussianDensity& g) const {
+    const Place p = place(g.center);
+    const double within = static_cast<double>(g.reach), h = least_distance(p);
+    return h < within && most_foot(p) + std::sqrt((within - h) * (within + h)) > 0;
+  }
+
   // Around what the rays cover between two distances.
   Sphere around(double from, double to) const {
     const double middle = (from + to) / 2;
@@ -125,6 +101,28 @@ struct GaussianPanels::Met {
   double radius, extinction, least_distance;
 };
 
+// What is asked once for many squares.
+struct GaussianPanels::Neighbourhood {
+  static constexpr int side = 4 * bin_side;
+
+  GaussianReach reach;
+  int x = -1, y = -1;                    // its upper left pixel
+  std::vector<std::uint32_t> gaussians;  // that its rays may meet, ascending
+
+  explicit Neighbourhood(const GaussianAirlight& a) : reach(a.gaussians) {}
+
+  void enter(const GaussianAirlight& a, int square_x, int square_y) {
+    const int to_x = square_x - square_x % side, to_y = square_y - square_y % side;
+    if (to_x == x && to_y == y) return;
+    x = to_x, y = to_y;
+    const Cone cone(a.view, x, y, side);
+    gaussians.clear();
+    for (std::uint32_t i = 0; i < a.gaussians.size(); ++i) {
+      if (cone.meets(a.gaussians[i])) gaussians.push_back(i);
+    }
+  }
+};
+
 struct GaussianPanels::Build {
   const GaussianAirlight& a;
   GaussianPanels& out;
@@ -132,7 +130,9 @@ struct GaussianPanels::Build {
   std::vector<Met> met;  // in the order of out.met_
   double sharp;
   bool everywhere;  // something is to be seen also where no Gaussian is
-  // Lists of the recursion's branch: of Gaussians, and where the list of each light lies.
+  int most_spared = 0;
+  const GaussianReach& reach;
+  // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
   std::vector<std::uint32_t> stack;
   std::vector<Range> ranges;
   Range last_active{};
@@ -140,79 +140,24 @@ struct GaussianPanels::Build {
   Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y)
       : a(algorithm),
         out(panels),
-        cone(a.view, x, y),
+        cone(a.view, x, y, bin_side),
         sharp(sharpness(a.phase)),
-        everywhere(a.extinction > 0 || a.emission != glm::vec3(0)) {
-    for (std::size_t i = 0; i < a.gaussians.size(); ++i) meet(a.gaussians[i], static_cast<std::uint32_t>(i));
+        everywhere(a.extinction > 0 || a.emission != glm::vec3(0)),
+        reach(panels.near_->reach) {
+    for (const std::uint32_t i : panels.near_->gaussians) meet(a.gaussians[i], i);
   }
 
   void meet(const GaussianDensity& g, std::uint32_t index) {
     const Cone::Place p = cone.place(g.center);
-    const double reach = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
+    const double within = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
     const double h = cone.least_distance(p);
-    if (h >= reach) return;
-    const double chord = std::sqrt((reach - h) * (reach + h));
+    if (h >= within) return;
+    const double chord = std::sqrt((within - h) * (within + h));
     const double begin = std::max(0.0, cone.least_foot(p) - chord), end = cone.most_foot(p) + chord;
     if (end <= 0) return;
     out.met_.push_back(index);
     met.push_back({begin, end, cone.least_foot(p), cone.most_foot(p), radius, static_cast<double>(g.extinction), h});
   }
-
-  // All ways from a light to the places of a sphere: a cone about `toward`, a cylinder for a directional light.
-  struct Ways {
-    glm::dvec3 vector, toward;  // from the light to the sphere; from the sphere to a directional light
-    double length = 0, radius = 0, sine = 0, cosine = 1;
-    bool directional, within;  // within: the light may stand in the sphere
-
-    Ways(const Light& light, const Sphere& s)
-        : vector(light.vector), radius(s.radius), directional(light.directional), within(false) {
-      if (directional) {
-        toward = -vector;
-        vector = s.center;
-        return;
-      }
-      toward = s.center - vector;
-      length = glm::length(toward);
-      within = length <= radius * 1.001;
-      if (within) {
-        vector = s.center;
-        return;
-      }
-      toward /= length;
-      sine = radius / length;
-      cosine = std::sqrt(1 - sine * sine);
-    }
-    // Whether a Gaussian may shade some place of the sphere from the light.
-    bool meet(const GaussianDensity& g) const {
-      const glm::dvec3 e = glm::dvec3(g.center) - vector;
-      const double reach = static_cast<double>(g.reach) * (1 + 1e-6), all = glm::dot(e, e);
-      if (within) return all < squared(reach + radius);
-      const double along = glm::dot(e, toward);
-      if (directional) return along > -(reach + radius) && all - along * along < squared(reach + radius);
-      if (along <= -reach || along >= length + radius + reach) return false;
-      return std::max(0.0, all - along * along) * squared(cosine) < squared(std::max(0.0, along) * sine + reach);
-    }
-    // Whether a Gaussian may have something of such a way behind the light.
-    bool behind(const GaussianDensity& g) const {
-      if (directional) return false;
-      if (within) return true;
-      const glm::dvec3 e = glm::dvec3(g.center) - vector;
-      const double all = glm::dot(e, e), along = glm::dot(e, toward);
-      if (all < squared(static_cast<double>(g.reach)) || along <= 0) return true;
-      return squared(along * cosine) <= std::max(0.0, all - along * along) * squared(sine);
-    }
-    // The longest panel over which the shadow of a Gaussian is smooth.
-    double smooth(const GaussianDensity& g, const Light& light) const {
-      const double r = static_cast<double>(g.radius);
-      const double faint = 1 + 0.03 / (static_cast<double>(g.extinction) * r);  // what takes little may be rough
-      double grown = 1;
-      if (!directional && length > radius) {
-        const double distance = glm::length(glm::dvec3(g.center - light.vector));
-        grown = std::max(1.0, (length - radius) / std::max(distance, r));
-      }
-      return panel_radii * r * grown * faint;
-    }
-  };
 
   // Cuts in which a light's peak has to be taken apart; 0: none.
   std::uint32_t levels(const Light& light, double begin, double end) const {
@@ -230,7 +175,11 @@ struct GaussianPanels::Build {
   void filter_shades(std::size_t from, const Sphere& s) {
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       const Range before = ranges[from + k];
-      const Ways ways(a.lights[k], s);
+      if (!a.depths.empty()) {
+        ranges.push_back({0, before.end > 0 && reach.shades(a.lights[k], s) ? 1U : 0U});
+        continue;
+      }
+      const LightWays ways(a.lights[k], s);
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = before.begin; i < before.end; ++i) {
         const std::uint32_t index = stack[i];
@@ -238,6 +187,17 @@ struct GaussianPanels::Build {
       }
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
     }
+  }
+
+  // The longest panel over which all that shades the sphere from a light is smooth.
+  double smooth_shadow(std::size_t light, Range shading, const Sphere& s) const {
+    double longest = 1e300;
+    if (shading.begin == shading.end) return longest;
+    if (!a.depths.empty()) return panel_radii * reach.smooth(a.lights[light], s);
+    const LightWays ways(a.lights[light], s);
+    for (std::uint32_t i = shading.begin; i < shading.end; ++i)
+      longest = std::min(longest, panel_radii * ways.smooth(a.gaussians[stack[i]], a.lights[light]));
+    return longest;
   }
 
   // Panels from begin to end. `active`: places in met, on the stack; the lights' lists begin at `from` of ranges.
@@ -264,9 +224,7 @@ struct GaussianPanels::Build {
       bool sampled = any;
       for (std::size_t k = 0; k < a.lights.size(); ++k) {
         const Range r = ranges[shading + k];
-        const Ways ways(a.lights[k], sphere);
-        for (std::uint32_t i = r.begin; i < r.end; ++i)
-          longest = std::min(longest, ways.smooth(a.gaussians[stack[i]], a.lights[k]));
+        longest = std::min(longest, smooth_shadow(k, r, sphere));
         if (!any && r.begin == r.end) continue;
         sampled = true;
         if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
@@ -275,7 +233,7 @@ struct GaussianPanels::Build {
       const bool fine = end - begin <= longest || out.panels_.size() > many_panels;
       const bool good = !sampled || (fine && cuts <= most_cuts);
       if (good || depth == 0 || end - begin < finest * end) {
-        add(begin, end, inside, shading, sphere);
+        add(begin, end, inside, shading, sphere, (end - begin) / longest);
       } else {
         const double middle = begin + (end - begin) / 2;
         cut(begin, middle, inside, shading, depth - 1);
@@ -286,7 +244,7 @@ struct GaussianPanels::Build {
     ranges.resize(ranges_size);
   }
 
-  void add(double begin, double end, Range inside, std::size_t shading, const Sphere& sphere) {
+  void add(double begin, double end, Range inside, std::size_t shading, const Sphere& sphere, double part) {
     Panel p;
     p.begin = static_cast<float>(begin);
     p.end = static_cast<float>(end);
@@ -304,20 +262,22 @@ struct GaussianPanels::Build {
     p.passed.end = static_cast<std::uint32_t>(out.indices_.size());
     last_active = p.active;
     p.shades = static_cast<std::uint32_t>(out.shades_.size());
-    p.sampled = p.active.begin < p.active.end;
+    bool sampled = p.active.begin < p.active.end;
     std::uint32_t cuts = 0;
     bool plain = p.active.begin == p.active.end && p.passed.begin == p.passed.end;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       Shade s;
+      const Range list = ranges[shading + k];
+      s.shaded = list.begin < list.end;
       s.shading.begin = static_cast<std::uint32_t>(out.indices_.size());
-      const Ways ways(a.lights[k], sphere);
-      for (std::uint32_t i = ranges[shading + k].begin; i < ranges[shading + k].end; ++i) {
+      const LightWays ways(a.lights[k], sphere);
+      for (std::uint32_t i = list.begin; i < list.end && a.depths.empty(); ++i) {
         out.indices_.push_back(stack[i] | (ways.behind(a.gaussians[stack[i]]) ? around_light : 0));
       }
       s.shading.end = static_cast<std::uint32_t>(out.indices_.size());
       const bool closed = closed_form(p, s);
       plain = plain && closed;
-      p.sampled = p.sampled || !closed;
+      sampled = sampled || !closed;
       // Only a panel that cannot be divided any more has more cuts than there is room for.
       const std::uint32_t n = closed ? 0 : levels(a.lights[k], begin, end);
       if (n > 0 && cuts + 2 * n + 1 <= most_cuts) s.levels = n, cuts += 2 * n + 1;
@@ -333,15 +293,38 @@ struct GaussianPanels::Build {
         return;
       }
     }
+    if (sampled) p.samples = samples(part);
     out.panels_.push_back(p);
   }
 
+  // How many nodes fewer a panel may have.
+  int spared() const {
+    double sum = 0, squares = 0;
+    for (const Met& m : met) {
+      const double depth = m.extinction * m.radius * falloff_bound(squared(m.least_distance / m.radius));
+      sum += depth, squares += depth * depth;
+    }
+    int n = 0;
+    for (const double many : sharing) n += sum * sum > many * squares ? 1 : 0;
+    return n;
+  }
+  // `part`: of the longest panel.
+  int samples(double part) const {
+    const double n = std::ceil(static_cast<double>(a.samples) * (0.4 + 0.6 * std::min(part, 1.0)) - 1e-9);
+    return std::clamp(static_cast<int>(n) - most_spared, std::min(2, a.samples), a.samples);
+  }
+
   void run() {
+    most_spared = spared();
     const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
     const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);
     const Range all{0, static_cast<std::uint32_t>(stack.size())};
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
+      if (!a.depths.empty()) {
+        ranges.push_back({0, a.gaussians.empty() ? 0U : 1U});
+        continue;
+      }
       const auto begin = static_cast<std::uint32_t>(stack.size());
       for (std::uint32_t i = 0; i < a.gaussians.size(); ++i) stack.push_back(i);
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
@@ -369,9 +352,13 @@ struct GaussianPanels::Build {
   }
 };
 
-void GaussianPanels::make(const GaussianAirlight& a, int x, int y) {
+GaussianPanels::GaussianPanels(const GaussianAirlight& a) : algorithm_(a), near_(std::make_unique<Neighbourhood>(a)) {}
+GaussianPanels::~GaussianPanels() = default;
+
+void GaussianPanels::make(int x, int y) {
   panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
-  Build(a, *this, x, y).run();
+  near_->enter(algorithm_, x, y);
+  Build(algorithm_, *this, x, y).run();
 }
 
 }  // namespace airlight

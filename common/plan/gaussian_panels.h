@@ -5,20 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "common/algorithms/gaussian_airlight.h"
+#include "common/plan/gauss_legendre.h"
 
 namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square
-
-// Nodes and weights of the Gauss-Legendre rule on [-1, 1], ascending; n in 1..16.
-struct GaussLegendre {
-  explicit GaussLegendre(int n);
-  std::vector<float> node, weight;
-};
 
 // The panels of one square, in order along the rays.
 class GaussianPanels {
@@ -28,7 +24,8 @@ class GaussianPanels {
   };
   // A light, seen from one panel.
   struct Shade {
-    Range shading;  // Gaussians that may stand between it and the panel
+    Range shading;        // Gaussians that may stand between it and the panel; empty where volumes hold the depths
+    bool shaded = false;  // something may stand there
     std::uint32_t levels =
         0;  // > 0: it is so near that the panel is cut at its foot and at length / cut_ratio^1..levels to both sides
   };
@@ -37,15 +34,21 @@ class GaussianPanels {
     Range active;              // which of met() rays may meet within
     Range passed;              // which were active before and are no more
     std::uint32_t shades = 0;  // the first of its Shades, one a light
-    bool sampled = false;      // it has nodes: not every light has the closed form
+    int samples = 0;  // how many nodes it has: fewer than the algorithm's where it is short, or where many Gaussians share
+                      // in what is seen, so that their errors cancel; 0: every light has the closed form
   };
   // What of indices() belongs to a Shade is a Gaussian's number, with this bit where the light stands within its reach.
   static constexpr std::uint32_t around_light = 1U << 31U;
   static constexpr int most_cuts = 96;  // of a panel, over all lights
   static constexpr float cut_ratio = 3;
 
-  // For the square whose upper left pixel is (x, y). What was held before is forgotten.
-  void make(const GaussianAirlight&, int x, int y);
+  // The algorithm must outlive this.
+  explicit GaussianPanels(const GaussianAirlight&);
+  ~GaussianPanels();
+
+  // For the square whose upper left pixel is (x, y). What was held before is forgotten. Squares of a neighbourhood, one after the
+  // other, look through its Gaussians alone.
+  void make(int x, int y);
 
   std::span<const Panel> panels() const { return panels_; }
   std::span<const Shade> shades() const { return shades_; }
@@ -53,14 +56,15 @@ class GaussianPanels {
   // All Gaussians that rays of the square may meet, ascending.
   std::span<const std::uint32_t> met() const { return met_; }
   // What a panel shows without sampling: no Gaussian within, none before this light.
-  static bool closed_form(const Panel& p, const Shade& s) {
-    return p.active.begin == p.active.end && s.shading.begin == s.shading.end;
-  }
+  static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
  private:
   struct Cone;
   struct Met;  // a Gaussian as the cone of the square's rays meets it
   struct Build;
+  struct Neighbourhood;
+  const GaussianAirlight& algorithm_;
+  std::unique_ptr<Neighbourhood> near_;
   std::vector<Panel> panels_;
   std::vector<Shade> shades_;
   std::vector<std::uint32_t> indices_, met_;

@@ -170,8 +170,9 @@ Technique gaussian_airlight() {
        .least = least_lost_depth,
        .most = 0.01,
        .choices = {},
-       .meaning = "optical depth that a way may lose of each Gaussian, and the share of the Gaussian's own: what lies farther out "
-                  "is left out",
+       .meaning =
+           "optical depth that a way may lose of each Gaussian, and the share of the Gaussian's own: what lies farther out "
+           "is left out",
        .sweep = {"1e-5", "1e-4", "1e-3"}},
       {.name = "erf",
        .kind = Knob::Kind::choice,

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 
 #include "common/plan/frame.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
+#include "common/techniques/march_error.h"
 
 namespace airlight {
 
 namespace {
-
-constexpr double grid_scale = 6;  // cells over which the extinction of a grid is taken to change, in estimate()
 
 Plan plan(const Scene& scene, const FrameRequest& request) {
   enum : std::uint32_t { voxels_id = FramePlan::first_own_id, volumes_id, surfaces_id, samples_id = surfaces_id + 2 };
@@ -73,82 +70,22 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   return frame.finish();
 }
 
-// The farthest that a view ray goes [m]; infinite where one may hit nothing.
-double longest_view(const Scene& scene) {
-  double farthest = scene.sky_distance;
-  if (std::isfinite(farthest)) {
-    for (const Surface& s : scene.surfaces) {
-      for (const glm::vec3& p : s.mesh->positions) {
-        const glm::dvec3 place(s.transform * glm::dvec4(glm::dvec3(p), 1.0));
-        farthest = std::max(farthest, glm::distance(place, scene.camera.position));
-      }
-    }
-  }
-  return farthest;
-}
-
-double farthest_lamp(const Scene& scene) {
-  double distance = 0;
-  for (const LightSource& l : scene.lights) {
-    if (l.type == LightType::point) distance = std::max(distance, glm::distance(l.position, scene.camera.position));
-  }
-  return distance;
-}
-
-// Relative error left by n steps over a length in which the extinction changes over `scale`: the midpoint rule, and what it
-// misses altogether where a step is longer than that.
-double of_uneven(double length, double scale, double n) {
-  const double y = length / (n * scale);
-  return 0.02 * y * y * (1 + y * y / 5);
-}
-
-// The model's numbers are fitted to the sweeps of docs/RESULTS.md, by a factor of up to ten on the safe side: how steps lie to
-// lamps decides.
-// * homogeneous: 0.25 x^2, x the largest optical depth of a step before the farthest lamp (graded_step()),
-// * an anisotropic phase function near a lamp: 0.4 / steps, its covariance with the fade in the one step that holds the lamp,
-// * Gaussians and grid: of_uneven(), over the way through them; so too for marched ways to the light.
-// Time: thread nanoseconds a pixel, by counting look-ups, lights and steps; half of the pixels are taken to meet Gaussians or
-// grid.
+// Error: left_by_steps() along the view rays and, where they are marched, on the ways to the lights. Time: thread nanoseconds a
+// pixel, by counting look-ups, lights and steps; half of the pixels are taken to meet Gaussians or grid.
 Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
   const Medium& medium = scene.medium;
   const double n = knobs.number("steps"), light_n = knobs.number("light_steps");
   const bool marched = knobs.choice("shadow") == "march";
-  const bool lamps =
-      std::any_of(scene.lights.begin(), scene.lights.end(), [](const LightSource& l) { return l.type == LightType::point; });
-  const double lights = static_cast<double>(scene.lights.size());
-  const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
+  const double lights = static_cast<double>(scene.lights.size()), count = static_cast<double>(medium.gaussians.size());
+  const UnevenPart gaussians = gaussians_part(scene), grid = grid_part(scene);
+  double error = left_by_steps(scene, n), nanoseconds = 4 * lights;
+  if (marched) error += gaussians.left_by(light_n);
+  if (medium.grid) error += grid.left_by(light_n);
   // What samples do not tell is not modelled.
-  double error = knobs.choice("airlight_resolution") == "full" ? 3e-5 : HUGE_VAL, nanoseconds = 4 * lights;
-  const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
-  if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
-  if (medium.extinction > 0) {
-    const double tau = std::min(medium.extinction * view, 80.0);
-    const double x = (1 + medium.extinction * lamp) * std::log1p(tau) / n;
-    error += 0.25 * x * x;
-    nanoseconds += n * (2 + 10 * lights) * (medium.gaussians.empty() && !medium.grid ? 1 : 2);
-  }
-  double near_end = view, far_end = 0, least = 1e30;
-  const auto count = static_cast<double>(medium.gaussians.size());
-  for (const GaussianDensity& g : gaussians_of(scene)) {
-    const double distance = static_cast<double>(glm::length(g.center)), reach = static_cast<double>(g.reach);
-    near_end = std::min(near_end, std::max(distance - reach, 0.0));
-    far_end = std::max(far_end, distance + reach);
-    least = std::min(least, static_cast<double>(g.radius));
-  }
-  if (far_end > near_end) {
-    const double length = std::min(far_end, view) - near_end;
-    error += of_uneven(length, least, n);
-    if (marched) error += of_uneven(length, least, light_n);
-    nanoseconds += 0.5 * n * (10 + 10 * lights + count * (3 + lights * (marched ? 4 * light_n : 6)));
-  }
-  if (medium.grid) {
-    const glm::dvec3 size(medium.grid->voxels->size);
-    const glm::dmat3 frame(medium.grid->transform);
-    const double cell = std::min({glm::length(frame[0]), glm::length(frame[1]), glm::length(frame[2])});
-    const double diagonal = glm::length(frame * size);
-    error += of_uneven(diagonal, grid_scale * cell, n) + of_uneven(diagonal, grid_scale * cell, light_n);
-    nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
-  }
+  if (knobs.choice("airlight_resolution") != "full") error = HUGE_VAL;
+  if (medium.extinction > 0) nanoseconds += n * (2 + 10 * lights) * (medium.gaussians.empty() && !medium.grid ? 1 : 2);
+  if (gaussians.length > 0) nanoseconds += 0.5 * n * (10 + 10 * lights + count * (3 + lights * (marched ? 4 * light_n : 6)));
+  if (medium.grid) nanoseconds += 0.5 * n * (10 + lights * (10 + 7 * light_n));
   const double surfaces = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off");
   return {error, 1e-9 * (nanoseconds * extent.width * extent.height + surfaces) / threads};
 }

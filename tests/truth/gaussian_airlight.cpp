@@ -63,7 +63,7 @@ void hold_sampled(const Scene& scene, Extent extent, const ReferenceFrame& truth
   for (const char* resolution : {"half", "quarter"}) {
     RenderSettings settings;
     settings.technique = "gaussian-airlight";
-    settings.knobs = {{"samples", "8"}, {"airlight_resolution", resolution}};
+    settings.knobs = {{"samples", "8"}, {"light_path", "exact"}, {"airlight_resolution", resolution}};
     settings.resolution = extent;
     settings.images = {"beauty", "airlight"};
     const Frame frame = renderer.render(scene, settings);

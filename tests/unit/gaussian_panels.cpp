@@ -66,13 +66,13 @@ class Panels : public testing::TestWithParam<float> {};
 
 TEST_P(Panels, MissNothing) {
   const GaussianAirlight a = some(GetParam());
-  GaussianPanels panels;
+  GaussianPanels panels(a);
   std::uint32_t next = 0;
   const auto number = [&](double from, double to) { return from + (to - from) * uniform(190, next++); };
   std::size_t met_at = 0, shaded = 0, without_end = 0;
   for (int y = 0; y < extent.height; y += bin_side) {
     for (int x = 0; x < extent.width; x += bin_side) {
-      panels.make(a, x, y);
+      panels.make(x, y);
       float last = 0;
       std::set<std::uint32_t> active, passed;
       for (const GaussianPanels::Panel& p : panels.panels()) {
@@ -125,12 +125,55 @@ TEST_P(Panels, MissNothing) {
   EXPECT_GT(without_end, 1000U);
 }
 
+// Whether a Gaussian stands between a place and a light.
+bool stands_before(const GaussianDensity& g, const Light& light, const glm::dvec3& place) {
+  const glm::dvec3 way = light.directional ? -1e9 * glm::dvec3(light.vector) : glm::dvec3(light.vector) - place;
+  const double along = std::clamp(glm::dot(glm::dvec3(g.center) - place, way) / glm::dot(way, way), 0.0, 1.0);
+  return glm::distance(place + along * way, glm::dvec3(g.center)) < static_cast<double>(g.reach);
+}
+
+// With volumes no Gaussian is listed, and a panel which any of them may shade says so.
+TEST_P(Panels, TellWhatVolumesShade) {
+  GaussianAirlight a = some(GetParam());
+  a.gaussians.resize(12);
+  a.lights.push_back({.vector = {40, 1, -30}, .power = {1, 1, 1}});
+  a.depths.resize(a.lights.size());
+  GaussianPanels panels(a);
+  std::uint32_t next = 0;
+  const auto number = [&](double from, double to) { return from + (to - from) * uniform(191, next++); };
+  std::size_t shaded = 0, open = 0;
+  for (int y = 0; y < extent.height; y += bin_side) {
+    for (int x = 0; x < extent.width; x += bin_side) {
+      panels.make(x, y);
+      for (const GaussianPanels::Panel& p : panels.panels()) {
+        for (int sample = 0; sample < 8; ++sample) {
+          const glm::dvec3 d = ray(a.view, number(x, x + bin_side), number(y, y + bin_side));
+          const glm::dvec3 place = d * number(static_cast<double>(p.begin), static_cast<double>(p.end));
+          for (std::size_t k = 0; k < a.lights.size(); ++k) {
+            const GaussianPanels::Shade& shade = panels.shades()[p.shades + k];
+            EXPECT_EQ(shade.shading.begin, shade.shading.end);
+            const bool any = std::any_of(a.gaussians.begin(), a.gaussians.end(),
+                                         [&](const GaussianDensity& g) { return stands_before(g, a.lights[k], place); });
+            EXPECT_TRUE(shade.shaded || !any) << "light " << k;
+            ++(shade.shaded ? shaded : open);
+          }
+        }
+      }
+    }
+  }
+  std::printf("places that may be shaded %zu, that cannot be %zu\n", shaded, open);
+  EXPECT_GT(shaded, 1000U);
+  if (GetParam() > 0) {
+    EXPECT_GT(open, 1000U);
+  }
+}
+
 // Every place in reach of a Gaussian lies in a panel, and with fog every place.
 TEST_P(Panels, LeaveNoGap) {
   const GaussianAirlight a = some(GetParam());
-  GaussianPanels panels;
+  GaussianPanels panels(a);
   for (int y = 0; y < extent.height; y += bin_side) {
-    panels.make(a, 32, y);
+    panels.make(32, y);
     const glm::dvec3 d = ray(a.view, 40, y + 8);
     for (double t = 0.001; t < 60; t *= 1.01) {
       bool needed = a.extinction > 0;
