@@ -9,7 +9,7 @@ namespace airlight {
 
 namespace {
 
-constexpr int side = 32;           // of a tile: a multiple of the work group's 16 x 4
+constexpr int side = 16;           // of a tile: a multiple of the work group's 16 x 4
 constexpr int short_list = 16;     // crossings a pixel that the lists begin with
 constexpr GLuint run_binding = 4;  // uniform block
 constexpr GLuint begin_binding = 0, planes_binding = 1, changes_binding = 2, lists_binding = 3, most_binding = 4;

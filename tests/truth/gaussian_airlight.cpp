@@ -26,7 +26,7 @@ void hold_volumes(const Scene& scene, Extent extent, const ReferenceFrame& truth
   for (const char* cells : {"3", "6"}) {
     RenderSettings settings;
     settings.technique = "gaussian-airlight";
-    settings.knobs = {{"samples", "8"}, {"light_path", "volume"}, {"light_cells", cells}};
+    settings.knobs = {{"samples", "8"}, {"light_path", "volume"}, {"light_cells", cells}, {"lost_depth", "1e-5"}};
     settings.resolution = extent;
     settings.images = {"airlight"};
     const Frame frame = renderer.render(scene, settings);
@@ -97,7 +97,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
       settings.technique = "gaussian-airlight";
       // By default as it comes, else with closed forms toward the lights.
       settings.knobs = {{"samples", name}};
-      if (name != "4") settings.knobs.emplace_back("light_path", "exact");
+      if (name != "4") settings.knobs.insert(settings.knobs.end(), {{"light_path", "exact"}, {"lost_depth", "1e-5"}});
       settings.resolution = extent;
       settings.images = {"beauty", "airlight"};
       const Frame frame = renderer.render(scene, settings);

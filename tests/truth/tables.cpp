@@ -74,6 +74,7 @@ TEST(Tables, OpticalDepthRendered) {
       scene.medium.gaussians = gaussians_of(row[2]);
       RenderSettings settings;
       settings.technique = "gaussian-airlight";
+      settings.knobs = {{"lost_depth", "1e-5"}};
       settings.images = {"optical_depth"};
       const double value = static_cast<double>(renderer.render(scene, settings).image("optical_depth").at(0, 0));
       double whole = 0;  // of all lines through the centres
