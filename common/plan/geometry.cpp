@@ -127,8 +127,16 @@ std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& 
     to.albedo = from.albedo;
     to.emission = from.emission;
     const double whole = from.extinction * from.radius * std::sqrt(std::numbers::pi);
-    const f32::Float radii = f32::sqrt(f32::log_(std::max(whole, 1.0) / lost_depth));
-    to.reach = to.radius * radii.v;
+    const auto reach = [&](double lost) {
+      const f32::Float radii = f32::sqrt(f32::log_(std::max(whole, 1.0) / lost));
+      return to.radius * radii.v;
+    };
+    const double farthest = static_cast<double>(reach(least_lost_depth));
+    const bool lamp = std::any_of(scene.lights.begin(), scene.lights.end(), [&](const LightSource& l) {
+      return l.type == LightType::point && l.power != glm::dvec3(0) &&
+             glm::dot(l.position - from.center, l.position - from.center) < farthest * farthest;
+    });
+    to.reach = reach(lamp ? least_lost_depth : lost_depth);
     gaussians.push_back(to);
   }
   return gaussians;

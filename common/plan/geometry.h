@@ -18,7 +18,8 @@ View view_of(const Scene&, const FrameRequest&);
 std::vector<Light> lights_of(const Scene&, std::vector<std::size_t>* index = nullptr);
 std::vector<Material> materials_of(const Scene&);
 // Gaussians of non-zero extinction, each with its reach: a way that stays beyond it, or a part of one that does, loses less than
-// `lost_depth` of optical depth there, and less than that share of the Gaussian's own (Zhou et al. 2007, eq. 30).
+// `lost_depth` of optical depth there, and less than that share of the Gaussian's own (Zhou et al. 2007, eq. 30). Where a lamp
+// stands little is bright: about such a place `least_lost_depth` holds.
 constexpr double least_lost_depth = 1e-5;
 std::vector<GaussianDensity> gaussians_of(const Scene&);
 // Seen from a place of one's own, not from the camera.

@@ -137,7 +137,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   const bool volumes = gaussians > 0 && (path == "volume" || (path == "auto" && gaussians > static_cast<double>(few_gaussians)));
   const double lost = knobs.number("lost_depth");
   double error = 1e-4;
-  if (gaussians > 0) error += 4 * std::exp(-1.3 * n) + lost;
+  if (gaussians > 0) error += 4 * (std::exp(-1.3 * n) + lost);
   if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
   if (volumes) error += 0.11 / (cells * cells);
   // What samples do not tell is not modelled, and of noise there is no truth.
