@@ -22,6 +22,9 @@ namespace airlight::HWY_NAMESPACE {
 
 namespace {
 
+// [1/m^2] of a Gaussian, per unit of intensity: a sample close to a light in a thick one may be far too bright, but is finite.
+constexpr float most_scattered = 1e20F;
+
 // What a ray knows of each light and has from it, behind each other in `scratch`: a vector each.
 enum : std::ptrdiff_t { foot_at = 0, h_at = lanes, sum_at = 2 * lanes, floats_a_light = 5 * lanes };
 
@@ -34,7 +37,7 @@ struct Projection {
   float* scratch;
 
   Real3 d;
-  Real end, tau, glow[3];
+  Real length, end, depths, glow[3];  // depths: optical depth of the Gaussians
 
   HWY_INLINE Projection(const ProjectedGaussians& algorithm, const TileView& tile_view, float* floats)
       : a(algorithm),
@@ -51,10 +54,10 @@ struct Projection {
 
 // The homogeneous part: of each light (eq. 17).
 HWY_INLINE void Projection::begin(int i) {
-  const Real length = ray_length(load(view.plane(a.distance) + i), a.sky_distance);
+  length = ray_length(load(view.plane(a.distance) + i), a.sky_distance);
   d = pixel_rays(a.view, view.tile, i);
   end = min(length, 1e15);
-  tau = optical_depth(length, a.extinction);
+  depths = 0.0;
   for (Real& part : glow) part = 0.0;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     const Light& light = a.lights[k];
@@ -81,23 +84,23 @@ HWY_INLINE void Projection::add(const GaussianDensity& one, const GaussianTerms&
   const Real erf_from = gaussian_erf(erf, foot * -terms.inverse), erf_to = gaussian_erf(erf, (end - foot) * terms.inverse);
   const Real depth = gaussian_between(lateral, erf_from, erf_to) * terms.whole;
   const Real before = gaussian_between(lateral, erf_from, gaussian_nearest(erf_from, erf_to)) * terms.whole;
-  tau += depth;
+  depths += depth;
   const Real t = min(max(foot, 0.0), end);
   const Real3 place = along({0.0, 0.0, 0.0}, d, t), e = to_center(one, place);
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
     const Light& light = a.lights[k];
     float* floats = light_floats(k);
-    Real length, foot_of_way, beside_way, density;
-    const Real3 way = toward_light(light, place, length);
+    Real way_length, foot_of_way, beside_way, density;
+    const Real3 way = toward_light(light, place, way_length);
     perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot_of_way, beside_way);
-    const Real behind = gaussian_depth(erf, terms.inverse, beside_way, -foot_of_way, length - foot_of_way) * terms.whole;
+    const Real behind = gaussian_depth(erf, terms.inverse, beside_way, -foot_of_way, way_length - foot_of_way) * terms.whole;
     const Real all = before + behind + more[k + 1];
     if (light.directional) {
       density = directional_density(kind, g, 0.0, -dot(real3(light.vector), d), t, all);
     } else {
       density = airlight_density(kind, g, 0.0, load(floats + foot_at), load(floats + h_at), t, all);
     }
-    const Real scattered = depth * density;
+    const Real scattered = min(depth * density, most_scattered);
     for (int c = 0; c < 3; ++c) {
       float* sum = floats + sum_at + c * lanes;
       store(fma(scattered, one.albedo[c] * light.power[c], load(sum)), sum);
@@ -109,10 +112,10 @@ HWY_INLINE void Projection::add(const GaussianDensity& one, const GaussianTerms&
 }
 
 HWY_INLINE void Projection::finish(int i) const {
+  const Real tau = optical_depth(length, a.extinction) + depths;
   const Real source = opacity(tau);
   // As if the Gaussians were spread evenly over the ray.
-  Real emitting = 0.0;
-  if (a.emission != glm::vec3(0)) emitting = attenuated_length(end, tau / max(end, 1e-30), tau);
+  const Real emitting = attenuated_length(end, depths / max(end, 1e-30) + a.extinction, tau);
   for (int c = 0; c < 3; ++c) {
     Real all = fma(source, a.ambient[c], fma(emitting, a.emission[c], glow[c]));
     for (std::size_t k = 0; k < a.lights.size(); ++k) {

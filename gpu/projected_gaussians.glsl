@@ -44,7 +44,7 @@ void main() {
   vec4 held = vec4(0.0);
   if (!first_lights || first_of_list > 0) held = imageLoad(airlight_image, at);
   vec3 glow = vec3(0.0);
-  float tau = held.w;
+  float depths_on_ray = held.w;
   vec3 sums[LIGHTS_A_PASS];
   for (int n = 0; n < LIGHTS_A_PASS; ++n) sums[n] = vec3(0.0);
 
@@ -71,7 +71,7 @@ void main() {
     vec3 e = c - place;
     float eye = depths[i] + extinction * length(c);
     if (first_lights) {
-      tau += depth;
+      depths_on_ray += depth;
       glow += depth * transmittance(before + eye) / albedo_extinction_of(i).w * emission_reach(i).xyz;
     }
     for (int k = first_light; k < light_end(); ++k) {
@@ -95,7 +95,7 @@ void main() {
         beside_ray(vector_radius, d, foot_of_light, beside_light);
         density = airlight_density(phase_kind, emission_g.w, 0.0, foot_of_light, beside_light, t, all);
       }
-      sums[k - first_light] += depth * density * albedo_extinction_of(i).xyz * power_directional.xyz;
+      sums[k - first_light] += min(depth * density, 1e20) * albedo_extinction_of(i).xyz * power_directional.xyz;
     }
   }
 
@@ -118,12 +118,12 @@ void main() {
 #endif
   }
   if (last_of_all == 0) {
-    imageStore(airlight_image, at, vec4(sum, tau));
+    imageStore(airlight_image, at, vec4(sum, depths_on_ray));
     return;
   }
-  tau += optical_depth(length_of_ray, extinction);
+  float tau = optical_depth(length_of_ray, extinction) + depths_on_ray;
   // As if the Gaussians were spread evenly over the ray.
-  float emitting = attenuated_length(end, tau / max(end, 1e-30), tau);
+  float emitting = attenuated_length(end, depths_on_ray / max(end, 1e-30) + extinction, tau);
   imageStore(airlight_image, at, vec4(sum + opacity(tau) * ambient_sky_distance.xyz + emitting * emission_g.xyz, 0.0));
   imageStore(transmittance_image, at, vec4(transmittance(tau)));
 #ifdef WITH_OPTICAL_DEPTH

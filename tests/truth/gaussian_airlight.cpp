@@ -38,6 +38,20 @@ void hold_volumes(const Scene& scene, Extent extent, const ReferenceFrame& truth
   }
 }
 
+// The paper's own airlight: a baseline, whose error is told, and is neither ours nor absurd.
+void hold_published(const Scene& scene, Extent extent, const ReferenceFrame& truth, Renderer& renderer) {
+  RenderSettings settings;
+  settings.technique = "gaussian-airlight";
+  settings.knobs = {{"light_path", "published"}};
+  settings.resolution = extent;
+  settings.images = {"airlight", "transmittance"};
+  const Frame frame = renderer.render(scene, settings);
+  const double error = relative_error(frame.image("airlight"), truth, parts[2]).off_edges;
+  std::printf("%s, light_path=published: relative RMSE of the airlight %.2f %%\n", frame.device.c_str(), 100 * error);
+  EXPECT_FALSE(!(error < tolerance("truth_published_airlight"))) << frame.device;
+  EXPECT_GT(error, tolerance("truth_gaussians")) << frame.device;
+}
+
 class GaussianTruth : public testing::TestWithParam<TruthScene> {};
 
 // By default, and with two and a half times the cells and eight times the steps.
@@ -121,6 +135,7 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
     }
     if (extent.width >= 64) hold_sampled(scene, extent, truth, renderer);
     hold_volumes(scene, extent, truth, renderer);
+    if (!casters) hold_published(scene, extent, truth, renderer);
     hold_propagation(scene, extent, truth, renderer, backend == std::string("cpu"));
     if (!casters) continue;
     // The comparison sees shadows.
