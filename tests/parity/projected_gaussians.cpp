@@ -26,7 +26,21 @@ Buffer add(Case& c, std::uint32_t id, const std::vector<T>& values) {
   return c.buffers.back().first;
 }
 
-std::vector<float> others(const CenterDepths& d) { return {d.others.begin(), d.others.end()}; }
+// Of so many that all stand in each other's way, where any numbers will do.
+std::vector<float> invented(std::size_t count) {
+  std::vector<float> depths;
+  for (std::uint32_t i = 0; i < count; ++i) depths.push_back(static_cast<float>(3 * uniform(180, i)));
+  return depths;
+}
+
+std::vector<float> others(std::vector<GaussianDensity> gaussians, const Light* light) {
+  if (gaussians.size() > 1000) return invented(gaussians.size());
+  if (light && !light->directional) {
+    for (GaussianDensity& g : gaussians) g.center -= light->vector;
+  }
+  const CenterDepths d = light && light->directional ? depths_to_centers(gaussians, light->vector) : depths_to_centers(gaussians);
+  return {d.others.begin(), d.others.end()};
+}
 
 Case project(Extent extent, const Parts& parts) {
   Case c;
@@ -38,16 +52,10 @@ Case project(Extent extent, const Parts& parts) {
   std::vector<Buffer> to_light;
   std::vector<float> light_to_camera;
   for (const Light& light : parts.lights) {
-    const auto id = static_cast<std::uint32_t>(20 + to_light.size());
-    if (light.directional) {
-      to_light.push_back(add(c, id, others(depths_to_centers(gaussians, light.vector))));
-      light_to_camera.push_back(static_cast<float>(depth_toward(gaussians, -glm::dvec3(light.vector))));
-    } else {
-      std::vector<GaussianDensity> seen = gaussians;
-      for (GaussianDensity& g : seen) g.center -= light.vector;
-      to_light.push_back(add(c, id, others(depths_to_centers(seen))));
-      light_to_camera.push_back(static_cast<float>(depth_to(gaussians, light.vector)));
-    }
+    to_light.push_back(add(c, static_cast<std::uint32_t>(20 + to_light.size()), others(gaussians, &light)));
+    const double depth =
+        light.directional ? depth_toward(gaussians, -glm::dvec3(light.vector)) : depth_to(gaussians, light.vector);
+    light_to_camera.push_back(static_cast<float>(depth));
   }
   const Image total{{5}, Format::rgb32f, extent, 1, true};
   const Image through{{6}, Format::r32f, extent, 1, true};
@@ -57,7 +65,7 @@ Case project(Extent extent, const Parts& parts) {
   c.steps = {{ProjectedGaussians{.distance = surfaces.distance,
                                  .tables = parts.extinction > 0 ? add(c, 4, airlight_tables(parts.phase, 64)) : Buffer{},
                                  .bins = add(c, 9, gaussian_bins(view, gaussians)),
-                                 .to_camera = add(c, 10, others(depths_to_centers(gaussians))),
+                                 .to_camera = add(c, 10, others(gaussians, nullptr)),
                                  .to_light = to_light,
                                  .light_to_camera = light_to_camera.empty() ? Buffer{} : add(c, 11, light_to_camera),
                                  .lights = parts.lights,

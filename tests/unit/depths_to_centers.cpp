@@ -106,7 +106,7 @@ TEST(DepthsToCenters, OfRandomSets) {
   }
   compare("strong and weak", with_reach(
                                  places(44, 200, {0, 0, -5}, glm::dvec3(3)), [](std::size_t) { return 0.2; }, 1e4));
-  compare("thousands", with_reach(places(45, 1500, {1, 2, 3}, glm::dvec3(5)), [](std::size_t) { return 0.1; }));
+  compare("many", with_reach(places(45, 700, {1, 2, 3}, glm::dvec3(5)), [](std::size_t) { return 0.1; }));
 }
 
 TEST(DepthsToCenters, OfHostileSets) {

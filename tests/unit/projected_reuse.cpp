@@ -2,6 +2,8 @@
 // not where only lights have; and images have the same bits as in a cold render.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "app/airlight.h"
 #include "common/techniques/technique.h"
 #include "cpu/backend.h"
@@ -97,6 +99,32 @@ TEST_F(ProjectedReuse, OnlyWhatChangedIsMadeAgain) {
   EXPECT_EQ(upload(scene), (Made{})) << "albedo and fog are no depths of Gaussians";
   scene.medium.gaussians[2].extinction *= 1.5;
   EXPECT_EQ(upload(scene), (Made{1, 1, 3, 1})) << "the medium changed";
+}
+
+// Surfaces that throw shadows are refused by name, not rendered without them.
+TEST(Published, RefusesShadowsOfSurfaces) {
+  Scene scene = lit_blobs();
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
+  mesh->normals.assign(3, {0, 1, 0});
+  mesh->triangles = {{0, 1, 2}};
+  scene.surfaces.emplace_back();
+  scene.surfaces[0].mesh = mesh;
+  RenderSettings settings;
+  settings.technique = "gaussian-airlight";
+  settings.knobs = {{"light_path", "published"}};
+  Renderer renderer({.backend = "cpu"});
+  try {
+    renderer.render(scene, settings);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("setting light_path: published has no shadows"), std::string::npos) << error.what();
+  }
+  settings.knobs.emplace_back("shadows", "off");
+  EXPECT_NO_THROW(renderer.render(scene, settings));
+  settings.knobs.pop_back();
+  scene.surfaces[0].casts_shadow = false;
+  EXPECT_NO_THROW(renderer.render(scene, settings));
 }
 
 }  // namespace

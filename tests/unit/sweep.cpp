@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tests/parity/inputs.h"
@@ -40,7 +41,7 @@ void compare(std::uint32_t stream, unsigned count, unsigned boxes_count, double 
   EXPECT_EQ(found, all) << count << " points, " << boxes_count << " boxes";
 }
 
-TEST(Sweep2D, FindsThePairsThatAreThere) {
+TEST(Sweep, FindsThePairsThatAreThere) {
   for (std::uint32_t k = 0; k < 40; ++k) {
     compare(600 + k, 1 + 7 * k, 3 * k, 1e9, 0.3);
     compare(700 + k, 5 * k, 1 + 6 * k, 12, 0.5);
@@ -48,7 +49,7 @@ TEST(Sweep2D, FindsThePairsThatAreThere) {
   compare(800, 2000, 1500, 1e9, 0.05);
 }
 
-TEST(Sweep2D, NothingIsInNothing) {
+TEST(Sweep, NothingIsInNothing) {
   const std::vector<SweptPoint> points{{0, 0}};
   const std::vector<SweptBox> boxes{{{-1, 1}, {-1, 1}, 0}};
   const auto never = [](std::uint32_t, std::uint32_t) { ADD_FAILURE(); };
