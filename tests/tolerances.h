@@ -66,6 +66,9 @@ inline constexpr Tolerance tolerances[] = {
      "by "
      "pixel"},
     {"truth_published_airlight", 1.0, "relative RMSE of the airlight as Zhou et al. publish it: to be measured"},
+    {"published_equations", 2e-4,
+     "of the largest: what a reach leaves out of every Gaussian in the way, 1e-5 each, and single precision; the airlight "
+     "tables"},
     {"truth_printed_erf", 0.001,
      "what the printed error function adds: 2e-4 of the whole line through a Gaussian, where that is an optical depth of a few"},
     {"truth_airlight_everywhere", 0.002,

@@ -71,7 +71,7 @@ class Boxes {
  private:
   void cone(const glm::dvec3& axis, double sine, std::uint32_t owner) {
     const double cosine = std::sqrt(1 - sine * sine), radius = std::sqrt(squared(axis.x) + squared(axis.z));
-    Interval height{axis.y * cosine - radius * sine - rounding, axis.y * cosine + radius * sine + rounding};
+    SweptRange height{axis.y * cosine - radius * sine - rounding, axis.y * cosine + radius * sine + rounding};
     if (radius <= sine) {  // a pole is within
       (axis.y > 0 ? height.most : height.least) = axis.y > 0 ? 2 : -2;
       list.push_back({height, {-1, 5}, owner});
@@ -82,7 +82,7 @@ class Boxes {
     double most = around(c * axis.x - s * axis.z, c * axis.z + s * axis.x) + rounding;
     if (most < least) most += 4;
     for (const double turn : {-4.0, 0.0, 4.0}) {
-      const Interval turned{least + turn, most + turn};
+      const SweptRange turned{least + turn, most + turn};
       if (turned.least <= 4 && turned.most >= 0) list.push_back({height, turned, owner});
     }
   }

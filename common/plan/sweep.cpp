@@ -31,7 +31,7 @@ Sweep::Sweep(std::span<const SweptPoint> points, std::span<const SweptBox> boxes
   first_.assign(2 * leaves_ + 1, 0);
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     entries_of_.push_back(entries_.size());
-    const Interval& held = boxes[b].across;
+    const SweptRange& held = boxes[b].across;
     if (!(held.least <= held.most) || !(boxes[b].along.least <= boxes[b].along.most)) continue;
     const auto from = std::lower_bound(across.begin(), across.end(), held.least,
                                        [&](std::uint32_t i, double least) { return points[i].across < least; });

@@ -10,13 +10,13 @@
 namespace airlight {
 
 // [least, most], both ends included.
-struct Interval {
+struct SweptRange {
   double least, most;
 };
 
 struct SweptBox {
-  Interval along, across;  // along the sweep, and across it
-  std::uint32_t owner;     // what a visitor is told
+  SweptRange along, across;  // along the sweep, and across it
+  std::uint32_t owner;       // what a visitor is told
 };
 
 struct SweptPoint {

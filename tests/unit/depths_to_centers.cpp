@@ -62,7 +62,7 @@ struct Sum {
 
 struct Direction {
   bool from_infinity;
-  glm::dvec3 travel{0, 0, 0};
+  glm::vec3 travel{0, 0, 0};
 };
 
 void compare(const char* name, const Gaussians& all, const Direction& d) {
@@ -75,7 +75,9 @@ void compare(const char* name, const Gaussians& all, const Direction& d) {
     const glm::dvec3 center(all[i].center);
     const double length = d.from_infinity ? 1e300 : glm::length(center);
     const glm::dvec3 from = d.from_infinity ? center : glm::dvec3(0);
-    const glm::dvec3 way = d.from_infinity ? -glm::normalize(d.travel) : length > 0 ? center / length : glm::dvec3(0, 1, 0);
+    const glm::dvec3 way = d.from_infinity ? -glm::normalize(glm::dvec3(d.travel))
+                           : length > 0    ? center / length
+                                           : glm::dvec3(0, 1, 0);
     Sum others, own;
     for (std::size_t j = 0; j < all.size(); ++j) (j == i ? own : others).add(all[j], from, way, length);
     pairs += all.size() - static_cast<std::size_t>(others.lost + own.lost);
@@ -93,8 +95,8 @@ void compare(const char* name, const Gaussians& all, const Direction& d) {
 
 void compare(const char* name, const Gaussians& all) {
   compare(name, all, {false});
-  for (const glm::dvec3 travel :
-       {glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0.6, 0, -0.8), glm::dvec3(0.3, -1, -0.2)})
+  for (const glm::vec3 travel :
+       {glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0.6F, 0, -0.8F), glm::vec3(0.3F, -1, -0.2F)})
     compare(name, all, {true, travel});
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-bool holds(const Interval& i, double at) { return i.least <= at && at <= i.most; }
+bool holds(const SweptRange& i, double at) { return i.least <= at && at <= i.most; }
 
 // Coordinates are multiples of 1 / steps, so that many are equal.
 void compare(std::uint32_t stream, unsigned count, unsigned boxes_count, double steps, double width) {
