@@ -65,7 +65,11 @@ inline constexpr Tolerance tolerances[] = {
      "relative RMSE of gaussian-airlight with eight nodes at half and quarter resolution: the tolerance of DepthAwareUpsample, "
      "by "
      "pixel"},
-    {"truth_published_airlight", 1.0, "relative RMSE of the airlight as Zhou et al. publish it: to be measured"},
+    {"truth_published_airlight", 0.9,
+     "relative RMSE of the airlight as Zhou et al. publish it, one sample a Gaussian: measured 0.03 in fog that outshines them "
+     "to 0.76"},
+    {"truth_published_halo", 40,
+     "the same where lamps stand in Gaussians: up to 34, as a sample may be a millimetre from the lamp"},
     {"published_equations", 2e-4,
      "of the largest: what a reach leaves out of every Gaussian in the way, 1e-5 each, and single precision; the airlight "
      "tables"},
