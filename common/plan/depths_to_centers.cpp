@@ -14,9 +14,16 @@ namespace {
 constexpr double infinite = 1e300;
 // Boxes hold what they should although they are rounded: so much wider, beside a size and beside 1.
 constexpr double wider = 1e-9, rounding = 1e-12;
-const int accurate = static_cast<int>(Erf::accurate);
+// From here on erf_() is held.
+constexpr double far_out = 4;
 
 double squared(double x) { return x * x; }
+
+// Most ends of ways are far from most Gaussians.
+f32::Float error_function(double x) {
+  static const f32::Float far = f32::erf_(far_out);
+  return x >= far_out ? far : x <= -far_out ? -far : f32::erf_(x);
+}
 
 // A way of a length [m] that begins at a place, or does not end.
 struct Way {
@@ -32,9 +39,9 @@ double depth_on(const Way& way, const GaussianDensity& g) {
   const double h2 = glm::dot(beside, beside), nearest = std::clamp(foot, 0.0, way.length);
   if (!(h2 + squared(foot - nearest) < squared(static_cast<double>(g.reach)))) return 0;
   const float inverse = 1 / g.radius;
-  const f32::Float h = std::sqrt(h2), begin = -foot, whole = f32::gaussian_whole(g.extinction, g.radius);
-  const f32::Float share = way.length < infinite ? f32::gaussian_depth(accurate, inverse, h, begin, way.length - foot)
-                                                 : f32::gaussian_depth_beyond(accurate, inverse, h, begin);
+  const f32::Float lateral = f32::gaussian_lateral(inverse, std::sqrt(h2)), whole = f32::gaussian_whole(g.extinction, g.radius);
+  const f32::Float share = f32::gaussian_between(lateral, error_function(-foot * static_cast<double>(inverse)),
+                                                 error_function((way.length - foot) * static_cast<double>(inverse)));
   return static_cast<double>(share.v) * static_cast<double>(whole.v);
 }
 

@@ -35,8 +35,8 @@ class Sweep {
     for (const std::uint32_t point : order_) {
       advance(point);
       for (std::size_t node = leaves_ + rank_[point]; node > 0; node /= 2) {
-        const Slot* held = slots_.data() + first_[node];
-        for (std::uint32_t i = 0; i < count_[node]; ++i) visit(point, held[i].owner);
+        const Slot* held = slots_.data() + nodes_[node].first;
+        for (std::uint32_t i = 0; i < nodes_[node].count; ++i) visit(point, held[i].owner);
       }
     }
   }
@@ -48,6 +48,9 @@ class Sweep {
   };
   struct Slot {
     std::uint32_t entry, owner;
+  };
+  struct Node {
+    std::uint32_t first, count;  // of its slots; how many of the entries that these are for are in
   };
 
   void advance(std::uint32_t point);
@@ -61,9 +64,9 @@ class Sweep {
   std::vector<std::uint32_t> beginning_, ending_;  // boxes by where they begin and end along the sweep
   std::size_t begun_ = 0, ended_ = 0;              // how many of them have
   std::vector<Entry> entries_;                     // box by box
-  std::vector<std::size_t> entries_of_, first_;    // where a box's entries begin and a node's slots, and where the last end
-  std::vector<Slot> slots_;                        // of each node, those that are in before the others
-  std::vector<std::uint32_t> count_;               // how many these are
+  std::vector<std::uint32_t> entries_of_;          // where a box's begin, and where the last end
+  std::vector<Node> nodes_;
+  std::vector<Slot> slots_;  // of each node, those that are in before the others
 };
 
 }  // namespace airlight
