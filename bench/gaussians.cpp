@@ -144,9 +144,9 @@ void table_one() {
   row(3008, 1, 100, 34);
 }
 
+// The least of repetitions.
 double seconds(const std::function<void()>& work) {
-  double best = 1e300;
-  double all = 0;
+  double best = 1e300, all = 0;
   do {
     const auto start = std::chrono::steady_clock::now();
     work();
@@ -197,9 +197,8 @@ void light_paths() {
   fmt::print(
       "\nThe way to one lamp by closed forms and by volume, 200 x 150, default knobs: frame ms when all moves, thread ms of "
       "volumes and\n"
-      "airlight, relative RMSE of the airlight to closed forms and 12 nodes in percent; and the paper's own airlight, which has "
-      "no "
-      "nodes\n");
+      "airlight, relative RMSE of the airlight to closed forms and 12 nodes in percent; the paper's own airlight has "
+      "none\n");
   fmt::print("{:>10} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "Gaussians", "path", "frame", "only cam.", "volumes",
              "airlight", "RMSE", "12 nodes");
   for (const int n : {4, 10, 30, 100, 300, 1000, 3000, 10000}) {

@@ -66,13 +66,11 @@ inline constexpr Tolerance tolerances[] = {
      "by "
      "pixel"},
     {"truth_published_airlight", 0.9,
-     "relative RMSE of the airlight as Zhou et al. publish it, one sample a Gaussian: measured 0.03 in fog that outshines them "
-     "to 0.76"},
+     "relative RMSE of the airlight as Zhou et al. publish it, one sample a Gaussian: 0.03, in fog that outshines them, to 0.76"},
     {"truth_published_halo", 40,
      "the same where lamps stand in Gaussians: up to 34, as a sample may be a millimetre from the lamp"},
     {"published_equations", 1e-4,
-     "of the largest: what a reach leaves out of every Gaussian in the way, 1e-5 each, and single precision; the airlight "
-     "tables"},
+     "of the largest: what reaches leave out, 1e-5 of each Gaussian in a way, single precision, the tables of fog"},
     {"truth_printed_erf", 0.001,
      "what the printed error function adds: 2e-4 of the whole line through a Gaussian, where that is an optical depth of a few"},
     {"truth_airlight_everywhere", 0.002,
@@ -145,9 +143,8 @@ inline constexpr Tolerance tolerances[] = {
     {"left_out_depth", 1e-5,
      "of a Gaussian whose reach a way does not meet, and of its whole line: what the reach is chosen for"},
     {"depths_exponent", 0.12,
-     "of pairs that the sweep visits, by the number of Gaussians: boxes are wider than cones near poles, and where few are met "
-     "the "
-     "edge of their cloud counts"},
+     "of pairs that the sweep visits, by the number of Gaussians: boxes are wider than cones, and where few are met the edge of "
+     "their cloud counts"},
     {"gaussian_table", 1e-7, "beside the whole line: the inputs are given as floats, which moves an end by 1e-7 of its distance"},
     {"gaussian_depth", 6e-7, "beside the whole line: half the difference of two erf_, exp_ of a rounded square"},
     {"light_density", 2.5e-6,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "common/plan/depths_to_centers.h"
 #include "common/plan/gaussian_bins.h"
 #include "common/plan/hash.h"
+#include "common/plan/ray_noise.h"
 #include "common/plan/upload.h"
 
 namespace airlight {
@@ -70,12 +72,15 @@ Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, con
 
 void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity>& gaussians, Erf erf, Buffer tables,
                              Buffer volumes, std::uint32_t first_id) {
-  if (volumes) {
-    throw InputError(
-        "setting light_path: published has no shadows of surfaces in the medium, and a surface throws one; expected shadows=off "
-        "or another light_path");
-  }
   const Scene& scene = frame.scene;
+  const auto refuse = [](const char* what) {
+    throw InputError("setting light_path: published " + std::string(what) + ", or another light_path");
+  };
+  if (volumes) refuse("has no shadows of surfaces in the medium, and a surface throws one; expected shadows=off");
+  if (ray_noise(scene).amplitude > 0) refuse("bends no rays, and the scene has noise; expected none");
+  const std::string_view resolution = frame.request.knobs.choice("airlight_resolution");
+  if (resolution != "full") refuse("renders every pixel; expected airlight_resolution=full");
+  const double lost_depth = frame.request.knobs.number("lost_depth");
   const Gaussians seen = shared(gaussians);
   std::vector<Plan::Upload>& uploads = frame.plan.uploads;
   const auto add = [&](Plan::Upload upload) {
@@ -92,10 +97,10 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
     const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(k);
     if (frame.lights[k].directional) {
       // Seen from a place that does not move with the camera, and is near for the sake of single precision.
-      const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center));
+      const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center, lost_depth));
       to_light.push_back(add(depths_upload(id, from_one, frame.lights[k].vector)));
     } else {
-      to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position)))));
+      to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position, lost_depth)))));
     }
   }
   frame.plan.steps.push_back({ProjectedGaussians{.distance = frame.distance,

@@ -11,7 +11,8 @@ namespace airlight {
 
 // Adds ProjectedGaussians and its uploads, under ids from first_id on. Depths from a light are told as it sees the Gaussians,
 // those from the camera likewise: where only the other has moved they are those from before. `gaussians`: as the camera sees
-// them, at least one. Throws InputError where surfaces throw shadows, `volumes`, which it does not know.
+// them, at least one. Throws InputError for what it does not know: surfaces that throw shadows (`volumes`), noise, a low
+// resolution.
 void add_projected_gaussians(FramePlan&, const std::vector<GaussianDensity>& gaussians, Erf, Buffer tables, Buffer volumes,
                              std::uint32_t first_id);
 

@@ -101,8 +101,18 @@ TEST_F(ProjectedReuse, OnlyWhatChangedIsMadeAgain) {
   EXPECT_EQ(upload(scene), (Made{1, 1, 3, 1})) << "the medium changed";
 }
 
-// Surfaces that throw shadows are refused by name, not rendered without them.
-TEST(Published, RefusesShadowsOfSurfaces) {
+void expect_refused(const Scene& scene, const RenderSettings& settings, const std::string& why) {
+  Renderer renderer({.backend = "cpu"});
+  try {
+    renderer.render(scene, settings);
+    ADD_FAILURE() << why;
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("setting light_path: published " + why), 0U) << error.what();
+  }
+}
+
+// What it does not know is refused by name, not left out.
+TEST(Published, RefusesShadowsNoiseAndFewPixels) {
   Scene scene = lit_blobs();
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
@@ -114,17 +124,17 @@ TEST(Published, RefusesShadowsOfSurfaces) {
   settings.technique = "gaussian-airlight";
   settings.knobs = {{"light_path", "published"}};
   Renderer renderer({.backend = "cpu"});
-  try {
-    renderer.render(scene, settings);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("setting light_path: published has no shadows"), std::string::npos) << error.what();
-  }
+  expect_refused(scene, settings, "has no shadows");
   settings.knobs.emplace_back("shadows", "off");
   EXPECT_NO_THROW(renderer.render(scene, settings));
   settings.knobs.pop_back();
   scene.surfaces[0].casts_shadow = false;
   EXPECT_NO_THROW(renderer.render(scene, settings));
+  settings.knobs.emplace_back("airlight_resolution", "half");
+  expect_refused(scene, settings, "renders every pixel");
+  settings.knobs.pop_back();
+  scene.medium.noise.amplitude = 0.1;
+  expect_refused(scene, settings, "bends no rays");
 }
 
 }  // namespace
