@@ -25,7 +25,7 @@ struct SweptPoint {
 
 class Sweep {
  public:
-  // Numbers that are not NaN. An interval whose least is above its most holds nothing.
+  // Of what outlives this; numbers that are not NaN. A range whose least is above its most holds nothing.
   Sweep(std::span<const SweptPoint>, std::span<const SweptBox>);
 
   // visit(point, owner) for every box that holds the point with this number; points in the order of the sweep, boxes in an order
