@@ -169,7 +169,7 @@ TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
   settings.knobs = {{"samples", "3"}};
   expect_finite(GetParam(), extreme_gaussians, settings, 50);
   settings.knobs = {{"light_path", "published"}, {"shadows", "off"}};
-  expect_finite(GetParam(), extreme_gaussians, settings, 50);
+  expect_finite(GetParam(), extreme_gaussians, settings, 25);
 }
 
 TEST_P(Extremes, GiveFiniteNumbersOfParticles) {
