@@ -20,6 +20,7 @@ void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
 // `lit`: the lit parts of each light, or nothing where every light reaches everything.
 void run_tile(const RayMarch&, const TileView&, Simd, std::span<const LitParts> lit);
 void run_tile(const GaussianAirlight&, const TileView&, Simd, std::span<const LitParts> lit);
+void run_tile(const ProjectedGaussians&, const TileView&, Simd);
 void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Subsample&, const TileView&, Simd);
 void run_tile(const DepthAwareUpsample&, const TileView&, Simd);

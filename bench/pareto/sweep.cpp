@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
+#include "common/error.h"
 #include "common/plan/keys.h"
 
 namespace airlight {
 
 Settings Configuration::all_knobs() const { return KnobValues(airlight::technique(technique).knobs, knobs).all(); }
 
-std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent) {
+std::vector<Settings> different_settings(const Technique& technique, const Scene& scene, Extent extent,
+                                         std::set<std::string>& refused) {
   std::set<std::vector<std::uint64_t>> seen;
   std::vector<Settings> different;
   for (const Settings& settings : products(technique.knobs, true)) {
@@ -18,10 +19,14 @@ std::vector<Settings> different_settings(const Technique& technique, const Scene
     request.extent = extent;
     request.images = {"beauty"};
     request.knobs = KnobValues(technique.knobs, settings);
-    const Plan plan = technique.plan(scene, request);
-    std::map<Handle, std::uint64_t> uploads;
-    for (const Plan::Upload& upload : plan.uploads) uploads[upload.buffer] = upload.key;
-    if (seen.insert(step_keys(plan.steps, [&](Handle h) { return uploads.at(h); })).second) different.push_back(settings);
+    try {
+      const Plan plan = technique.plan(scene, request);
+      std::map<Handle, std::uint64_t> uploads;
+      for (const Plan::Upload& upload : plan.uploads) uploads[upload.buffer] = upload.key;
+      if (seen.insert(step_keys(plan.steps, [&](Handle h) { return uploads.at(h); })).second) different.push_back(settings);
+    } catch (const InputError& e) {
+      refused.insert(e.what());
+    }
   }
   return different;
 }
@@ -39,9 +44,11 @@ std::vector<Configuration> configurations(const Scene& scene, Extent extent, con
       refused.push_back(std::string(t.name) + ": it renders orders of scattering above the first, the truth has one");
       continue;
     }
-    for (const Settings& settings : different_settings(t, scene, extent)) {
+    std::set<std::string> why;
+    for (const Settings& settings : different_settings(t, scene, extent, why)) {
       for (const std::string& backend : backends) all.push_back({std::string(t.name), backend, settings});
     }
+    for (const std::string& line : why) refused.push_back(std::string(t.name) + ": " + line);
   }
   return all;
 }

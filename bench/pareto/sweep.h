@@ -1,6 +1,7 @@
 // What is measured: every technique that renders a scene, on each backend, with every product of its knobs' sweeps and baselines.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,12 @@ struct Configuration {
   Settings all_knobs() const;
 };
 
-// Those of one technique that differ in their plan: a knob that the scene does not need is not swept.
-std::vector<Settings> different_settings(const Technique&, const Scene&, Extent);
+// Those of one technique that differ in their plan: a knob that the scene does not need is not swept. `refused` gets why settings
+// are left out that the technique refuses for the scene.
+std::vector<Settings> different_settings(const Technique&, const Scene&, Extent, std::set<std::string>& refused);
 
 // Of the real-time techniques named (all, where none is), those that render the scene, with each backend in turn. `refused`
-// gets a line "technique: why" for each of the others.
+// gets a line "technique: why" for each of the others, and for settings that one of them refuses.
 std::vector<Configuration> configurations(const Scene&, Extent, const std::vector<std::string>& techniques,
                                           const std::vector<std::string>& backends, std::vector<std::string>& refused);
 

@@ -15,6 +15,7 @@
 #include "common/algorithms/network_iteration.h"
 #include "common/algorithms/optical_depth_propagation.h"
 #include "common/algorithms/particle_light.h"
+#include "common/algorithms/projected_gaussians.h"
 #include "common/algorithms/ray_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/algorithms/source_function.h"
@@ -27,10 +28,10 @@
 
 namespace airlight {
 
-using Algorithm =
-    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading, HomogeneousAirlight,
-                 DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight, NetworkIteration, SourceFunction,
-                 RayMarch, GaussianAirlight, LightMarch, Subsample, DepthAwareUpsample, FillAirlight, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
+                               HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
+                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians, LightMarch,
+                               Subsample, DepthAwareUpsample, FillAirlight, Compose>;
 
 struct Step {
   Algorithm what;

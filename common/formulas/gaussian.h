@@ -45,3 +45,7 @@ FORMULA real gaussian_depth_beyond(int erf, real inverse_radius, real h, real fr
 
 // Optical depth of the whole line through the centre.
 FORMULA real gaussian_whole(real extinction, real radius) { return extinction * radius * 1.7724538509055160; }
+
+// The error function of that place of a stretch which is nearest to the foot, given the error function of its ends: there a Gaussian is sampled by its projection
+// (Zhou et al. 2007, eq. 10 and their note 1).
+FORMULA real gaussian_nearest(real erf_from, real erf_to) { return max(erf_from, min(erf_to, 0.0)); }

@@ -12,7 +12,7 @@ std::vector<Settings> products(std::span<const Knob> knobs, bool baselines) {
   for (const Knob& knob : knobs) {
     std::vector<std::string_view> values = knob.sweep;
     if (baselines && !knob.baselines.empty()) {
-      values = {knob.standard};
+      if (values.empty()) values = {knob.standard};
       values.insert(values.end(), knob.baselines.begin(), knob.baselines.end());
     }
     if (values.empty()) continue;

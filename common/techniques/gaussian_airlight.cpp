@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/plan/gaussian_shadows.h"
 #include "common/plan/light_volumes.h"
+#include "common/plan/projected_gaussians.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 
@@ -48,9 +49,11 @@ LightVolumes light_volumes(FramePlan& frame, const std::vector<GaussianDensity>&
   };
   if (gaussians.empty() || frame.lights.empty()) return skip(gaussians.empty() ? "no Gaussian" : "no light");
   if (path == "exact") return skip("closed forms are wanted");
+  if (path == "published" && !frame.has_surfaces()) return skip("only surfaces have their light from volumes");
   const double cells = cells_for(frame.scene, gaussians, frame.request.knobs.number("light_cells"));
-  if (path == "auto" && gaussians.size() <= few_gaussians) return skip("closed forms of few Gaussians are faster");
-  if (path == "auto" && cells > most_cells) return skip("the smallest Gaussian is small beside them all: closed forms");
+  const bool if_worth_it = path != "volume";
+  if (if_worth_it && gaussians.size() <= few_gaussians) return skip("closed forms of few Gaussians are faster");
+  if (if_worth_it && cells > most_cells) return skip("the smallest Gaussian is small beside them all: closed forms");
   if (cells > finest_cells)
     throw InputError("setting light_cells: the volume would have " +
                      std::to_string(static_cast<long long>(std::min(cells, 1e15))) + " cells along an edge, expected at most " +
@@ -89,29 +92,34 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   // Which parts of each ray the lights reach.
   const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   const LightVolumes toward_lights = light_volumes(frame, gaussians);
-  frame.plan.steps.push_back({GaussianAirlight{.distance = frame.distance,
-                                               .tables = tables,
-                                               .volumes = volumes,
-                                               .depths = toward_lights.depths,
-                                               .lights = frame.lights,
-                                               .depth_volumes = toward_lights.volumes,
-                                               .gaussians = met,
-                                               .view = frame.view,
-                                               .phase = medium.phase,
-                                               .extinction = frame.extinction,
-                                               .sky_distance = frame.sky_distance,
-                                               .albedo = medium.albedo,
-                                               .ambient = frame.ambient,
-                                               .emission = medium.emission,
-                                               .samples = static_cast<int>(request.knobs.number("samples")),
-                                               .erf = erf,
-                                               .noise = noise,
-                                               .airlight = frame.airlight,
-                                               .per_light = frame.per_light,
-                                               .transmittance = frame.transmittance,
-                                               .optical_depth = frame.optical_depth},
-                              "light scattered once along the view ray"});
-  sample_airlight(frame, samples_id);  // section 5.4
+  if (!gaussians.empty() && request.knobs.choice("light_path") == "published") {
+    const auto lights = static_cast<std::uint32_t>(frame.lights.size());
+    add_projected_gaussians(frame, gaussians, erf, tables, volumes, depths_id + lights);
+  } else {
+    frame.plan.steps.push_back({GaussianAirlight{.distance = frame.distance,
+                                                 .tables = tables,
+                                                 .volumes = volumes,
+                                                 .depths = toward_lights.depths,
+                                                 .lights = frame.lights,
+                                                 .depth_volumes = toward_lights.volumes,
+                                                 .gaussians = met,
+                                                 .view = frame.view,
+                                                 .phase = medium.phase,
+                                                 .extinction = frame.extinction,
+                                                 .sky_distance = frame.sky_distance,
+                                                 .albedo = medium.albedo,
+                                                 .ambient = frame.ambient,
+                                                 .emission = medium.emission,
+                                                 .samples = static_cast<int>(request.knobs.number("samples")),
+                                                 .erf = erf,
+                                                 .noise = noise,
+                                                 .airlight = frame.airlight,
+                                                 .per_light = frame.per_light,
+                                                 .transmittance = frame.transmittance,
+                                                 .optical_depth = frame.optical_depth},
+                                "light scattered once along the view ray"});
+    sample_airlight(frame, samples_id);  // section 5.4
+  }
   // Section 4: surfaces are lit through the medium.
   LightMarch way;
   way.gaussians = gaussians, way.light_steps = 1, way.erf = erf;
@@ -137,6 +145,7 @@ Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, in
   const bool volumes = gaussians > 0 && (path == "volume" || (path == "auto" && gaussians > static_cast<double>(few_gaussians)));
   const double lost = knobs.number("lost_depth");
   double error = 1e-4;
+  if (gaussians > 0 && path == "published") error = HUGE_VAL;  // a baseline
   if (gaussians > 0) error += 4 * (std::exp(-1.3 * n) + lost);
   if (gaussians > 0 && knobs.choice("erf") == "fast") error += 6e-4;
   if (volumes) error += 0.11 / (cells * cells);
@@ -191,11 +200,12 @@ Technique gaussian_airlight() {
        .standard = "auto",
        .least = 0,
        .most = 0,
-       .choices = {"auto", "exact", "volume"},
+       .choices = {"auto", "exact", "volume", "published"},
        .meaning = "optical depths from each node to each light: closed forms, or looked up in a volume of each light's; auto: "
-                  "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge",
+                  "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge; published: the paper's "
+                  "airlight, one sample a Gaussian and the light's way by its centre, without shadows of surfaces",
        .sweep = {"exact", "volume"},
-       .baselines = {}},
+       .baselines = {"published"}},
       {.name = "light_cells",
        .kind = Knob::Kind::number,
        .standard = "3",

@@ -27,7 +27,7 @@ struct Knob {
   std::vector<std::string_view> choices;  // choice
   std::string_view meaning;
   std::vector<std::string_view> sweep;  // values for time against error, coarse to fine
-  // Choices that are measured beside the standard (of a knob without a sweep), for comparison: no goal takes them.
+  // Choices that are measured beside the sweep, or the standard where there is none, for comparison: no goal takes them.
   std::vector<std::string_view> baselines = {};
 };
 

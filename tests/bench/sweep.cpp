@@ -15,10 +15,12 @@ TEST(Sweep, IsTheProductOfTheKnobsThatHaveOne) {
   EXPECT_EQ(all, "a=1 c=x;a=1 c=y;a=2 c=x;a=2 c=y;a=3 c=x;a=3 c=y;");
   EXPECT_EQ(products({}), std::vector<Settings>{{}});
   knobs[1].standard = "p", knobs[1].baselines = {"q"};
-  knobs[0].sweep = {"1"};
+  knobs[0].sweep = {"1"}, knobs[0].baselines = {"0"};
   all.clear();
   for (const Settings& s : products(knobs, true)) all += text_of(s) + ";";
-  EXPECT_EQ(all, "a=1 b=p c=x;a=1 b=p c=y;a=1 b=q c=x;a=1 b=q c=y;");
+  EXPECT_EQ(all,
+            "a=1 b=p c=x;a=1 b=p c=y;a=1 b=q c=x;a=1 b=q c=y;"
+            "a=0 b=p c=x;a=0 b=p c=y;a=0 b=q c=x;a=0 b=q c=y;");
   EXPECT_EQ(products(knobs).size(), 2U);
 }
 
@@ -26,6 +28,13 @@ TEST(Sweep, EveryValueIsOneThatItsKnobTakes) {
   for (const Technique& t : techniques()) {
     for (const Settings& s : products(t.knobs, true)) EXPECT_NO_THROW(KnobValues(t.knobs, s)) << t.name << ' ' << text_of(s);
   }
+}
+
+std::vector<Settings> different(const Technique& technique, const Scene& scene) {
+  std::set<std::string> refused;
+  const std::vector<Settings> settings = different_settings(technique, scene, {32, 24}, refused);
+  EXPECT_TRUE(refused.empty());
+  return settings;
 }
 
 Scene foggy() {
@@ -39,26 +48,52 @@ TEST(Sweep, KnobsThatDoNothingAreLeftOut) {
   Scene scene = foggy();
   const Technique& marching = technique("marching");
   const std::size_t steps = marching.knobs[0].sweep.size();
-  EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps);
+  EXPECT_EQ(different(marching, scene).size(), steps);
   scene.medium.gaussians.emplace_back();
   // Marched toward the light with each number of steps, or by the closed form with none.
-  EXPECT_EQ(different_settings(marching, scene, {32, 24}).size(), steps * (marching.knobs[1].sweep.size() + 1));
+  EXPECT_EQ(different(marching, scene).size(), steps * (marching.knobs[1].sweep.size() + 1));
 }
 
 TEST(Sweep, ThePublishedOrderIsMeasuredWhereShadowsAreThrown) {
   Scene scene = foggy();
   const Technique& planes = technique("shadow-planes");
   const std::size_t nodes = planes.knobs[0].sweep.size();
-  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
+  EXPECT_EQ(different(planes, scene).size(), nodes);
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
   mesh->normals.assign(3, {0, 1, 0});
   mesh->triangles = {{0, 1, 2}};
   scene.surfaces.emplace_back();
   scene.surfaces[0].mesh = mesh;
-  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), 2 * nodes);
+  EXPECT_EQ(different(planes, scene).size(), 2 * nodes);
   scene.surfaces[0].casts_shadow = false;
-  EXPECT_EQ(different_settings(planes, scene, {32, 24}).size(), nodes);
+  EXPECT_EQ(different(planes, scene).size(), nodes);
+}
+
+// Once each way, whatever the other knobs; and not where it would leave shadows out.
+TEST(Sweep, ThePublishedAirlightIsMeasuredWhereItRenders) {
+  Scene scene = foggy();
+  scene.medium.extinction = 0;
+  scene.medium.gaussians.emplace_back();
+  const auto published = [&](std::vector<std::string>& refused) {
+    int count = 0;
+    for (const Configuration& c : configurations(scene, {32, 24}, {"gaussian-airlight"}, {"cpu"}, refused))
+      count += text_of(c.knobs).find("light_path=published") != std::string::npos ? 1 : 0;
+    return count;
+  };
+  std::vector<std::string> refused;
+  const std::size_t reaches = technique("gaussian-airlight").knobs[1].sweep.size();
+  EXPECT_EQ(published(refused), static_cast<int>(2 * reaches)) << "by each error function";
+  EXPECT_TRUE(refused.empty());
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{0, 0, -3}, {1, 0, -3}, {0, 0, -4}};
+  mesh->normals.assign(3, {0, 1, 0});
+  mesh->triangles = {{0, 1, 2}};
+  scene.surfaces.emplace_back();
+  scene.surfaces[0].mesh = mesh;
+  EXPECT_EQ(published(refused), 0);
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_TRUE(refused[0].starts_with("gaussian-airlight: setting light_path: published")) << refused[0];
 }
 
 TEST(Sweep, ConfigurationsAreOfTechniquesThatRenderTheScene) {

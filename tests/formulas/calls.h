@@ -66,6 +66,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 51) r[0] = gaussian_depth(1, a[0], a[1], a[2], a[3]);
   if (formula == 52) r[0] = gaussian_depth_beyond(1, a[0], a[1], a[2]);
   if (formula == 36) r[0] = gaussian_whole(a[0], a[1]);
+  if (formula == 66) r[0] = gaussian_nearest(gaussian_erf(0, a[0]), gaussian_erf(0, a[1]));
   if (formula == 37) {
     r[0] = airlight_density(kind, g, a[0], a[1], a[2], a[3], a[4]);
     r[1] = directional_density(kind, g, a[0], a[5], a[3], a[4]);

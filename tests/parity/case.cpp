@@ -20,6 +20,7 @@ std::vector<NamedCase> all_cases() {
                           source_function_cases(),
                           ray_march_cases(),
                           gaussian_airlight_cases(),
+                          projected_gaussians_cases(),
                           light_march_cases(),
                           subsample_cases(),
                           depth_aware_upsample_cases(),
@@ -33,7 +34,8 @@ std::vector<NamedCase> all_cases() {
 
 std::vector<NamedCase> long_cases() {
   std::vector<NamedCase> all;
-  for (const auto list : {long_ray_march_cases(), long_gaussian_airlight_cases(), long_light_march_cases()})
+  for (const auto list :
+       {long_ray_march_cases(), long_gaussian_airlight_cases(), long_projected_gaussians_cases(), long_light_march_cases()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

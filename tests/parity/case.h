@@ -44,6 +44,7 @@ std::span<const NamedCase> network_iteration_cases();
 std::span<const NamedCase> source_function_cases();
 std::span<const NamedCase> ray_march_cases();
 std::span<const NamedCase> gaussian_airlight_cases();
+std::span<const NamedCase> projected_gaussians_cases();
 std::span<const NamedCase> light_march_cases();
 std::span<const NamedCase> subsample_cases();
 std::span<const NamedCase> depth_aware_upsample_cases();
@@ -55,6 +56,7 @@ std::vector<NamedCase> all_cases();
 // Cases with so many loops that GL takes them in parts: for small images, and no benchmarks.
 std::span<const NamedCase> long_ray_march_cases();
 std::span<const NamedCase> long_gaussian_airlight_cases();
+std::span<const NamedCase> long_projected_gaussians_cases();
 std::span<const NamedCase> long_light_march_cases();
 std::vector<NamedCase> long_cases();
 

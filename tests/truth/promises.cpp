@@ -112,5 +112,18 @@ TEST(Choose, NeverTakesThePublishedOrder) {
   EXPECT_EQ(choose(scene, extent, rough, "shadow-planes", 2).technique, "shadow-planes");
 }
 
+// The same of the airlight as it is published, whatever the scene asks for.
+TEST(Choose, NeverTakesThePublishedAirlight) {
+  Scene scene = lamp_in_gaussians();
+  for (const bool asked : {false, true}) {
+    if (asked) scene.technique = "gaussian-airlight", scene.settings = {{"light_path", "published"}};
+    for (const Goal& goal : {goal_of("1000%", {}), goal_of({}, "100s")}) {
+      const Choice chosen = choose(scene, extent, goal, "gaussian-airlight", 2);
+      EXPECT_EQ(chosen.text().find("published"), std::string::npos) << chosen.text();
+      EXPECT_NE(chosen.text().find("light_path="), std::string::npos) << chosen.text();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace airlight

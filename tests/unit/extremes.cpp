@@ -168,6 +168,8 @@ TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
   settings.technique = "gaussian-airlight";
   settings.knobs = {{"samples", "3"}};
   expect_finite(GetParam(), extreme_gaussians, settings, 50);
+  settings.knobs = {{"light_path", "published"}, {"shadows", "off"}};
+  expect_finite(GetParam(), extreme_gaussians, settings, 25);
 }
 
 TEST_P(Extremes, GiveFiniteNumbersOfParticles) {

@@ -50,6 +50,7 @@ enum class Formula : int {
   gaussian_depth = 29,         // inverse radius, h, from, to
   gaussian_depth_beyond = 35,  // inverse radius, h, from
   gaussian_whole = 36,         // extinction, radius
+  gaussian_nearest = 66,       // ends of a stretch from the foot, in radii
   erf_printed = 50,            // those three by the printed error function
   gaussian_depth_printed = 51,
   gaussian_depth_beyond_printed = 52,

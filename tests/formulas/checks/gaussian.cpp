@@ -91,6 +91,23 @@ Measured measure_falloff(const Run& run) {
   return m;
 }
 
+// Stretches before the foot, behind it and around it.
+Measured measure_nearest(const Run& run) {
+  Random random(stream + 3);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    const double from = random.number(-5, 5);
+    add_call(in, from, from + random.magnitude(1e-4, 10));
+  }
+  const Columns found = run({Formula::gaussian_nearest, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double truth = std::erf(std::clamp(0.0, in[0][i], in[1][i]));
+    m.add(std::fabs(found[0][i] - truth), [&] { return place({{"from", in[0][i]}, {"to", in[1][i]}}); });
+  }
+  return m;
+}
+
 Measured measure_table(const Run& run) { return table_by(Formula::gaussian_depth, run); }
 Measured measure_depth(const Run& run) { return depth_by(Formula::gaussian_depth, run); }
 Measured measure_beyond(const Run& run) { return beyond_by(Formula::gaussian_depth_beyond, run); }
@@ -122,6 +139,7 @@ void add_gaussian_checks(std::vector<Check>& checks) {
   checks.push_back({"gaussian_printed_table", measure_printed_table, "erf_printed", "erf_printed"});
   checks.push_back({"gaussian_printed_depth", measure_printed_depth, "erf_printed", "erf_printed"});
   checks.push_back({"gaussian_printed_depth_beyond", measure_printed_beyond, "erf_printed", "erf_printed"});
+  checks.push_back({"gaussian_nearest", measure_nearest, "exact_double", "erf"});
   checks.push_back({"gaussian_falloff", measure_falloff, "exact_double", "gaussian_depth"});
 }
 

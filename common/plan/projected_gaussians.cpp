@@ -1,0 +1,129 @@
+#include "common/plan/projected_gaussians.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "common/error.h"
+#include "common/plan/depths_to_centers.h"
+#include "common/plan/gaussian_bins.h"
+#include "common/plan/hash.h"
+#include "common/plan/ray_noise.h"
+#include "common/plan/upload.h"
+
+namespace airlight {
+
+namespace {
+
+using Gaussians = std::shared_ptr<const std::vector<GaussianDensity>>;
+
+Gaussians shared(std::vector<GaussianDensity> all) {
+  return std::make_shared<const std::vector<GaussianDensity>>(std::move(all));
+}
+
+// What their optical depths depend on.
+Hash hash_of(std::string_view what, const Gaussians& all) {
+  Hash hash;
+  hash.add(what);
+  hash.add(all->size());
+  for (const GaussianDensity& g : *all) hash.add(g.center), hash.add(g.radius), hash.add(g.extinction), hash.add(g.reach);
+  return hash;
+}
+
+std::vector<float> as_floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+Plan::Upload bins_upload(std::uint32_t id, const Gaussians& all, const View& view) {
+  Hash key = hash_of("Gaussians of squares", all);
+  key.add(view);
+  return {{{id}, 0}, key.value(), [all, view] {
+            const std::vector<std::int32_t> bins = gaussian_bins(view, *all);
+            const auto bytes = std::as_bytes(std::span(bins));
+            return std::vector<std::byte>(bytes.begin(), bytes.end());
+          }};
+}
+
+// Of a place from which the Gaussians are seen.
+Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen) {
+  return table_upload({{id}, 0}, hash_of("depths from a place", seen).value(),
+                      [seen] { return as_floats(depths_to_centers(*seen).others); });
+}
+
+Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen, const glm::vec3& direction) {
+  Hash key = hash_of("depths along a direction", seen);
+  key.add(direction);
+  return table_upload({{id}, 0}, key.value(),
+                      [seen, direction] { return as_floats(depths_to_centers(*seen, direction).others); });
+}
+
+Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, const std::vector<Light>& lights) {
+  Hash key = hash_of("depths from the lights to the camera", seen);
+  for (const Light& light : lights) key.add(light.vector), key.add(light.directional);
+  return table_upload({{id}, 0}, key.value(), [seen, lights] {
+    std::vector<double> depths;
+    for (const Light& light : lights)
+      depths.push_back(light.directional ? depth_toward(*seen, -glm::dvec3(light.vector)) : depth_to(*seen, light.vector));
+    return as_floats(depths);
+  });
+}
+
+}  // namespace
+
+void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity>& gaussians, Erf erf, Buffer tables,
+                             Buffer volumes, std::uint32_t first_id) {
+  const Scene& scene = frame.scene;
+  const auto refuse = [](const char* what) {
+    throw InputError("setting light_path: published " + std::string(what) + ", or another light_path");
+  };
+  if (volumes) refuse("has no shadows of surfaces in the medium, and a surface throws one; expected shadows=off");
+  if (ray_noise(scene).amplitude > 0) refuse("bends no rays, and the scene has noise; expected none");
+  const std::string_view resolution = frame.request.knobs.choice("airlight_resolution");
+  if (resolution != "full") refuse("renders every pixel; expected airlight_resolution=full");
+  const double lost_depth = frame.request.knobs.number("lost_depth");
+  const Gaussians seen = shared(gaussians);
+  std::vector<Plan::Upload>& uploads = frame.plan.uploads;
+  const auto add = [&](Plan::Upload upload) {
+    uploads.push_back(std::move(upload));
+    return uploads.back().buffer;
+  };
+  const Buffer bins = add(bins_upload(first_id, seen, frame.view));
+  const Buffer to_camera = add(depths_upload(first_id + 1, seen));
+  Buffer light_to_camera;
+  if (!frame.lights.empty()) light_to_camera = add(light_to_camera_upload(first_id + 2, seen, frame.lights));
+  std::vector<Buffer> to_light;
+  for (std::size_t k = 0; k < frame.lights.size(); ++k) {
+    const LightSource& source = scene.lights[frame.light_index[k]];
+    const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(k);
+    if (frame.lights[k].directional) {
+      // Seen from a place that does not move with the camera, and is near for the sake of single precision.
+      const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center, lost_depth));
+      to_light.push_back(add(depths_upload(id, from_one, frame.lights[k].vector)));
+    } else {
+      to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position, lost_depth)))));
+    }
+  }
+  frame.plan.steps.push_back({ProjectedGaussians{.distance = frame.distance,
+                                                 .tables = tables,
+                                                 .bins = bins,
+                                                 .to_camera = to_camera,
+                                                 .to_light = to_light,
+                                                 .light_to_camera = light_to_camera,
+                                                 .lights = frame.lights,
+                                                 .gaussians = gaussians,
+                                                 .view = frame.view,
+                                                 .phase = scene.medium.phase,
+                                                 .extinction = frame.extinction,
+                                                 .sky_distance = frame.sky_distance,
+                                                 .albedo = scene.medium.albedo,
+                                                 .ambient = frame.ambient,
+                                                 .emission = scene.medium.emission,
+                                                 .erf = erf,
+                                                 .airlight = frame.airlight,
+                                                 .per_light = frame.per_light,
+                                                 .transmittance = frame.transmittance,
+                                                 .optical_depth = frame.optical_depth},
+                              "light scattered once at each Gaussian's projection, as published"});
+}
+
+}  // namespace airlight
