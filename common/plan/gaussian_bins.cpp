@@ -63,6 +63,11 @@ Box box_of(const View& view, const GaussianDensity& g) {
 
 }  // namespace
 
+bool in_view(const View& view, const GaussianDensity& g) {
+  const Box box = box_of(view, g);
+  return box.columns.least <= box.columns.most && box.rows.least <= box.rows.most;
+}
+
 std::vector<std::int32_t> gaussian_bins(const View& view, std::span<const GaussianDensity> gaussians) {
   const auto columns = static_cast<std::size_t>(bin_columns(view.extent)), rows = static_cast<std::size_t>(bin_rows(view.extent));
   std::vector<Box> boxes;

@@ -16,6 +16,9 @@ namespace airlight {
 inline int bin_columns(Extent e) { return (e.width + bin_side - 1) / bin_side; }
 inline int bin_rows(Extent e) { return (e.height + bin_side - 1) / bin_side; }
 
+// Whether some square does.
+bool in_view(const View&, const GaussianDensity&);
+
 // Where the list of each square begins among these numbers, and where the last ends; then the lists, each ascending: Gaussians
 // the box of whose reach on the screen touches the square. Throws InputError where lists would be longer than 2^28 in all.
 std::vector<std::int32_t> gaussian_bins(const View&, std::span<const GaussianDensity>);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/plan/gaussian_bins.h"
 #include "common/plan/gaussian_shadows.h"
 #include "common/plan/light_volumes.h"
 #include "common/plan/projected_gaussians.h"
@@ -128,6 +129,13 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   frame.shade_through(way, volumes, surfaces_id);
 
   // What this scene does not need.
+  const auto out_of_view =
+      std::count_if(met.begin(), met.end(), [&](const GaussianDensity& g) { return !in_view(frame.view, g); });
+  if (out_of_view > 0) {
+    frame.plan.skips.push_back({"rays through " + std::to_string(out_of_view) + " Gaussians out of view",
+                                toward_lights.depths.empty() ? "they may shade what is seen, and do nothing else"
+                                                             : "they are in the volumes toward the lights, and nowhere else"});
+  }
   if (gaussians.size() < medium.gaussians.size())
     frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
   if (!tables) frame.plan.skips.push_back({"airlight tables", lamps ? "no homogeneous fog" : "no point light"});
