@@ -80,14 +80,15 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
   if (ray_noise(scene).amplitude > 0) refuse("bends no rays, and the scene has noise; expected none");
   const std::string_view resolution = frame.request.knobs.choice("airlight_resolution");
   if (resolution != "full") refuse("renders every pixel; expected airlight_resolution=full");
-  const double lost_depth = frame.request.knobs.number("lost_depth");
-  const Gaussians seen = shared(gaussians);
+  // Depths have the least lost depth whatever the knob says: other reaches depend on where lamps stand, and a lamp that moves is
+  // to leave the camera's depths as they are.
+  const Gaussians seen = shared(gaussians_of(scene, scene.camera.position));
   std::vector<Plan::Upload>& uploads = frame.plan.uploads;
   const auto add = [&](Plan::Upload upload) {
     uploads.push_back(std::move(upload));
     return uploads.back().buffer;
   };
-  const Buffer bins = add(bins_upload(first_id, seen, frame.view));
+  const Buffer bins = add(bins_upload(first_id, shared(gaussians), frame.view));
   const Buffer to_camera = add(depths_upload(first_id + 1, seen));
   Buffer light_to_camera;
   if (!frame.lights.empty()) light_to_camera = add(light_to_camera_upload(first_id + 2, seen, frame.lights));
@@ -97,10 +98,10 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
     const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(k);
     if (frame.lights[k].directional) {
       // Seen from a place that does not move with the camera, and is near for the sake of single precision.
-      const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center, lost_depth));
+      const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center));
       to_light.push_back(add(depths_upload(id, from_one, frame.lights[k].vector)));
     } else {
-      to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position, lost_depth)))));
+      to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position)))));
     }
   }
   frame.plan.steps.push_back({ProjectedGaussians{.distance = frame.distance,

@@ -90,6 +90,10 @@ TEST_F(ProjectedReuse, OnlyWhatChangedIsMadeAgain) {
   EXPECT_EQ(upload(scene), (Made{1, 0, 0, 0})) << "the camera turned";
   scene.lights[1].position.y += 0.2;
   EXPECT_EQ(upload(scene), (Made{0, 0, 1, 1})) << "a light moved";
+  scene.lights[1].position = {0.4, 0.2, 0.3};
+  upload(scene);
+  scene.lights[1].position = {-2, 2.2, 0};
+  EXPECT_EQ(upload(scene).to_camera, 0) << "a light left Gaussians, which have other reaches then";
   scene.lights[2].direction = {0.6, -0.8, 0};
   EXPECT_EQ(upload(scene), (Made{0, 0, 1, 1})) << "a directional light turned";
   scene.lights[0].power *= 2.0;
