@@ -41,9 +41,9 @@ struct ReferencePixel {
   glm::dvec3 airlight{0};  // [W/m^2/sr] all lights, ambient and emission
   std::vector<glm::dvec3> airlight_of_light;
   glm::dvec3 standard_error{0};  // [W/m^2/sr] of the airlight, by the spread of its paths; 0 without any
-  // Estimated relative error of the worst channel of surface + airlight, that of random paths aside. What is indirect counts where
-  // it is exact; unbounded, it comes of a fixed rule, which leaves less than 1e-5 of it (tests/unit/surface_airlight.cpp) and is
-  // not counted.
+  // Estimated relative error of the worst channel of surface + airlight, that of random paths aside. What is indirect counts
+  // where it is exact; unbounded, it comes of a fixed rule, which leaves less than 1e-5 of it (tests/unit/surface_airlight.cpp)
+  // and is not counted.
   double error = 0;
 
   glm::dvec3 beauty() const { return surface + airlight; }
