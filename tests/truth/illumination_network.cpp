@@ -22,7 +22,7 @@ NetworkError measured(const Scene& scene, const NetworkTruth& truth, int particl
 
 TEST(IlluminationNetworkTruth, Isotropic) {
   const Scene scene = network_cloud(7.8, 0.9, 0);
-  const NetworkTruth truth = network_truth(scene, extent, 600);
+  const NetworkTruth truth = network_truth(scene, extent, 400);
   const NetworkError coarse = measured(scene, truth, 1024, 128), fine = measured(scene, truth, 4096, 256);
   EXPECT_FALSE(!(fine.error <= tolerance("truth_network")));
   EXPECT_LT(fine.apart, coarse.apart);
@@ -30,7 +30,7 @@ TEST(IlluminationNetworkTruth, Isotropic) {
 
 TEST(IlluminationNetworkTruth, Forward) {
   const Scene scene = network_cloud(7.8, 0.9, 0.6);
-  const NetworkError found = measured(scene, network_truth(scene, extent, 400), 1024, 128);
+  const NetworkError found = measured(scene, network_truth(scene, extent, 300), 1024, 128);
   EXPECT_FALSE(!(std::fabs(found.mean - 1) <= tolerance("truth_network_forward")));
 }
 

@@ -15,7 +15,7 @@
 
 namespace airlight {
 
-// Five Gaussians under a lamp and the sun, of this optical depth along the middle of the picture.
+// Five Gaussians under a lamp and the sun, of this optical depth along the thickest line from side to side.
 inline Scene network_cloud(double depth, double albedo, double g) {
   Scene scene;
   scene.camera = {.position = {0, 0, 7}, .look_at = {0, 0, 0}, .vertical_fov = 40};
@@ -25,7 +25,11 @@ inline Scene network_cloud(double depth, double albedo, double g) {
                             {.center = {0, 0.8, -0.2}, .radius = 0.7, .extinction = 2.5},
                             {.center = {-0.3, -0.6, 0.4}, .radius = 0.6, .extinction = 2},
                             {.center = {0.9, -0.5, -0.5}, .radius = 0.6, .extinction = 2.4}};
-  const double as_they_are = optical_depth(scene.medium.gaussians, scene.camera.position, {0, 0, -1}, 100);
+  double as_they_are = 0;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const glm::dvec3 from(-9, 0.05 * (i % 64 - 31.5), 0.05 * (i / 64 - 31.5));
+    as_they_are = std::max(as_they_are, optical_depth(scene.medium.gaussians, from, {1, 0, 0}, 100));
+  }
   for (Gaussian& one : scene.medium.gaussians) one.extinction *= depth / as_they_are, one.albedo = glm::dvec3(albedo);
   scene.lights = {point_light({0.2, 2.4, 0.8}, glm::dvec3(4)), directional_light({0.7, -0.6, -0.4}, glm::dvec3(2.5))};
   return scene;

@@ -36,7 +36,7 @@ TEST(Paths, OneBounceIsTheQuadratures) {
 
 // The comparison sees another phase function, and one channel's albedo that is off by 5 %.
 TEST(Paths, ComparisonIsSharp) {
-  for (const Named& m : media()) {
+  for (const Named& m : {Named{"fog", fog()}, Named{"everything", everything()}}) {
     const ReferenceFrame truth = rendered(m.scene, settings(1, 2));
     Scene isotropic = m.scene, brighter = m.scene;
     isotropic.medium.phase = {};
@@ -74,7 +74,7 @@ TEST(Paths, SunInFogWithoutBounds) {
   scene.medium.phase = {PhaseKind::henyey_greenstein, 0.8};
   const double mu = -glm::dot(scene.lights[0].direction, glm::dvec3(0, 0, -1));
   for (const int orders : {2, 4, 12, all_orders}) {
-    const ReferencePixel p = Reference(scene, settings(orders, 20000)).pixel(centre, one_pixel);
+    const ReferencePixel p = Reference(scene, settings(orders, 60000)).pixel(centre, one_pixel);
     const double truth = sun_in_fog(0.9, 0.8, std::min(orders, 1000), mu), error = p.standard_error.y;
     std::printf("%d orders: %.6f, %.6f in closed form, apart %.2f standard errors of %.2g\n", orders, p.airlight.y, truth,
                 (p.airlight.y - truth) / error, error);
@@ -149,7 +149,7 @@ TEST(Paths, ConstantGridIsFogBetweenWalls) {
 TEST(Paths, WallsBlockAndEndPaths) {
   Scene scene = gaussians();
   const auto airlight = [&](const Scene& s, bool shadows) {
-    ReferenceSettings with = settings(4, 30);
+    ReferenceSettings with = settings(4, 30, true);
     with.shadows = shadows;
     std::vector<double> values;
     for (const ReferencePixel& p : rendered(s, with).pixels) values.push_back(p.airlight.y);
@@ -172,7 +172,7 @@ TEST(Paths, WallsBlockAndEndPaths) {
     EXPECT_NEAR(boxed[i], lamps[i], 1e-9 * lamps[i]);
   }
   EXPECT_GT(most, 0);
-  EXPECT_GT(sun, 0.01 * most);
+  EXPECT_GT(sun, 0.003 * most);
   // Lamps and sun behind a wall that goes on for ever: nothing comes through, in no order.
   Scene dark = scene;
   dark.lights = {point_light({0, 0, -9}, {100, 100, 100}), directional_light({0, -0.1, 1}, {1, 1, 1})};
