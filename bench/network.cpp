@@ -12,31 +12,30 @@ namespace airlight {
 
 namespace {
 
-constexpr Extent small{16, 16}, full{512, 512};
+constexpr Extent small{12, 12}, full{512, 512};
 
-struct Size {
-  int particles, directions;
-};
-constexpr Size sizes[] = {{1024, 128}, {4096, 256}, {16384, 256}, {16384, 512}};
+constexpr NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}};
 
 void errors(int paths) {
   fmt::print(
       "Five Gaussians, a lamp and the sun, {} x {} pixels. Relative RMSE in percent beside the reference's paths, their noise\n"
-      "taken off, and the mean beside theirs; by particles and directions\n",
+      "taken off, and the mean beside theirs; by particles, directions and cells of the source function\n",
       small.width, small.height);
   fmt::print("{:>5} {:>6} {:>4} {:>9} {:>7}", "depth", "albedo", "g", "multiple", "noise");
-  for (const Size& s : sizes) fmt::print("{:>16}", fmt::format("{}, {}", s.particles, s.directions));
+  for (const NetworkSize& s : sizes) fmt::print("{:>18}", fmt::format("{}, {}, {}", s.particles, s.directions, s.resolution));
   fmt::print("\n");
   for (const double g : {0.0, 0.8}) {
     for (const double depth : {1.0, 4.0, 10.0, 40.0}) {
+      if (g > 0 && depth == 4) continue;
       for (const double albedo : {0.5, 0.9, 0.99}) {
         const Scene scene = network_cloud(depth, albedo, g);
-        const NetworkTruth truth = network_truth(scene, small, paths);
+        // Little of what a path meets is scattered forward to the camera, but much where it is.
+        const NetworkTruth truth = network_truth(scene, small, g > 0 ? 4 * paths : paths);
         fmt::print("{:5} {:6} {:4} {:7.0f} % {:7.2f}", depth, albedo, g, 100 * (1 - truth.single / truth.mean),
                    100 * truth.noise);
-        for (const Size& s : sizes) {
-          const NetworkError e = network_error(scene, truth, s.particles, s.directions);
-          fmt::print("{:9.2f} {:6.3f}", 100 * e.error, e.mean);
+        for (const NetworkSize& s : sizes) {
+          const NetworkError e = network_error(scene, truth, s);
+          fmt::print("{:11.2f} {:6.3f}", 100 * e.error, e.mean);
           std::fflush(stdout);
         }
         fmt::print("\n");
@@ -56,21 +55,19 @@ void times(int paths) {
     const double needed = paths * std::pow(truth.noise / 0.05, 2);
     const double pixels = static_cast<double>(full.width) * full.height / (static_cast<double>(small.width) * small.height);
     const double of_paths = (truth.seconds_all - truth.seconds_once) / paths * needed * pixels;
-    for (const Size& s : {Size{256, 64}, Size{512, 64}, Size{1024, 64}, Size{1024, 128}, Size{2048, 128}, Size{4096, 256}}) {
-      const NetworkError e = network_error(scene, truth, s.particles, s.directions);
+    for (const NetworkSize& s : {NetworkSize{256, 64, 16}, NetworkSize{512, 64, 32}, NetworkSize{1024, 64, 32},
+                                 NetworkSize{2048, 64, 32}, NetworkSize{4096, 64, 32}, NetworkSize{4096, 256, 64}}) {
+      const NetworkError e = network_error(scene, truth, s);
       if (!(e.error <= 0.05)) continue;
       Renderer renderer({.backend = "cpu"});
-      RenderSettings settings;
-      settings.technique = "illumination-network";
-      settings.knobs = {{"particles", std::to_string(s.particles)}, {"directions", std::to_string(s.directions)}};
-      settings.resolution = full;
       const auto start = std::chrono::steady_clock::now();
-      renderer.render(scene, settings);
+      renderer.render(scene, network_settings(s, full));
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       fmt::print(
-          "depth {}, albedo 0.9, isotropic: {:.3f} ({} particles, {} directions: {:.1f} %), {:.0f} ({:.0f} paths a pixel): "
+          "depth {}, albedo 0.9, isotropic: {:.3f} ({} particles, {} directions, {} cells: {:.1f} %), {:.0f} ({:.0f} paths a "
+          "pixel): "
           "{:.0f} times\n",
-          depth, seconds, s.particles, s.directions, 100 * e.error, of_paths, needed, of_paths / seconds);
+          depth, seconds, s.particles, s.directions, s.resolution, 100 * e.error, of_paths, needed, of_paths / seconds);
       break;
     }
   }
@@ -81,7 +78,7 @@ void times(int paths) {
 }  // namespace airlight
 
 int main(int argc, char** argv) {
-  const int paths = argc > 1 ? std::atoi(argv[1]) : 1000;
+  const int paths = argc > 1 ? std::atoi(argv[1]) : 2000;
   if (argc > 2 || paths < 2) {
     fmt::print(stderr, "airlight-network [PATHS]: expected at least 2 paths a pixel\n");
     return 2;

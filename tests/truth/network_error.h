@@ -74,13 +74,25 @@ struct NetworkError {
   double mean = 0;   // of the image beside the truth's: 1 without bias
 };
 
-inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, int particles, int directions) {
-  Renderer renderer({.backend = "cpu"});
+struct NetworkSize {
+  int particles, directions, resolution;
+};
+
+inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
   RenderSettings settings;
   settings.technique = "illumination-network";
-  settings.knobs = {{"particles", std::to_string(particles)}, {"directions", std::to_string(directions)}};
-  settings.resolution = truth.extent;
-  const Frame frame = renderer.render(scene, settings);
+  settings.knobs = {{"particles", std::to_string(size.particles)},
+                    {"directions", std::to_string(size.directions)},
+                    {"resolution", std::to_string(size.resolution)},
+                    {"tolerance", "1e-4"},
+                    {"iterations", "1000"}};
+  settings.resolution = extent;
+  return settings;
+}
+
+inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, const NetworkSize& size) {
+  Renderer renderer({.backend = "cpu"});
+  const Frame frame = renderer.render(scene, network_settings(size, truth.extent));
   const HostImage& image = frame.image("beauty");
   double squares = 0, mean = 0;
   const auto pixels = static_cast<double>(truth.values.size());
