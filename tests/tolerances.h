@@ -112,7 +112,7 @@ inline constexpr Tolerance tolerances[] = {
     {"truth_network_forward", 0.07,
      "relative, of the mean with 1024 particles and 128 directions where light scatters forward (g = 0.6): they are coarse "
      "beside "
-     "the peak, and the walks' mean is known to 0.02"},
+     "the peak, and the mean of the paths is known to 0.01"},
     {"network_dense", 1e-5, "of the largest value: the iteration's sums of floats against elimination in double"},
     {"network_energy", 2e-6, "relative: out against in at albedo 1, after rounds until nothing but rounding changes"},
     {"network_line_depth", 2.5e-5, "absolute: of each of two Gaussians a chord below 1e-5 is left out, the rest is rounding"},
