@@ -48,6 +48,7 @@ constexpr const char* program_examples = R"(Examples
   airlight render fog.json -o fog.exr
   airlight render fog.json -o fog.png --backend gl --exposure 1
   airlight render fog.json -o truth.exr --technique reference --resolution 96x72
+  airlight render smoke.json -o all.exr --technique reference --set max_bounces=1000000 --set paths=4096 --aov standard_error
   airlight compare fog.exr truth.exr --tolerance 0.001
   airlight explain fog.json
 )";
@@ -82,7 +83,7 @@ void add_scene_flags(CLI::App& command, Flags& f) {
   command
       .add_option("--aov", f.render.aovs,
                   "more images, separated by commas: surface, surface.direct, surface.indirect, surface.ambient, transmittance, "
-                  "airlight, airlight.LIGHT, depth, normal, optical_depth")
+                  "airlight, airlight.LIGHT, depth, normal, optical_depth; of the reference standard_error")
       ->delimiter(',');
   command.add_option("--error", f.error, "choose technique and settings for at most this relative RMSE: 1% or 0.01");
   command.add_option("--budget", f.budget, "choose the most exact technique and settings for this time a frame: 30ms or 0.03s");

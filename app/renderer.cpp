@@ -69,8 +69,14 @@ FrameRequest request_for(const Technique& technique, const Scene& scene, const R
   request.knobs = KnobValues(technique.knobs, knobs);
 
   const std::vector<std::string> names = image_names(scene);
-  const std::vector<std::string_view> known(names.begin(), names.end());
+  std::vector<std::string_view> known(names.begin(), names.end());
+  known.insert(known.end(), technique.own_images.begin(), technique.own_images.end());
   for (const std::string& name : settings.images) {
+    for (const Technique& t : techniques()) {
+      const auto& own = t.own_images;
+      if (t.name != technique.name && std::find(own.begin(), own.end(), name) != own.end())
+        throw InputError("image " + name + ": only technique " + std::string(t.name) + " gives it");
+    }
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw InputError("unknown image \"" + name + "\"" + suggestion(name, known));
     }

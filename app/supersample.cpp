@@ -1,6 +1,7 @@
 #include "app/supersample.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace airlight {
@@ -18,24 +19,33 @@ std::vector<glm::dvec2> subpixel_centres(int n) {
 
 void Supersampler::add(const std::string& name, const HostImage& image) {
   Sum& sum = sums_[name];
-  const bool place = name == "depth" || name == "normal";
+  const bool place = name == "depth" || name == "normal", squares = name == "standard_error";
   if (sum.passes++ == 0) {
     sum.extent = image.extent;
     sum.channels = image.channels;
     sum.values.assign(image.values.begin(), image.values.end());
+    if (squares) {
+      for (double& v : sum.values) v *= v;
+    }
     return;
   }
   if (place) {
     sum.passes = 1;
     return;
   }
-  for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += static_cast<double>(image.values[i]);
+  for (std::size_t i = 0; i < sum.values.size(); ++i) {
+    const auto value = static_cast<double>(image.values[i]);
+    sum.values[i] += squares ? value * value : value;
+  }
 }
 
 HostImage Supersampler::mean(const std::string& name) const {
   const Sum& sum = sums_.at(name);
   HostImage image(sum.extent, sum.channels);
-  for (std::size_t i = 0; i < sum.values.size(); ++i) image.values[i] = static_cast<float>(sum.values[i] / sum.passes);
+  const bool squares = name == "standard_error";
+  for (std::size_t i = 0; i < sum.values.size(); ++i) {
+    image.values[i] = static_cast<float>((squares ? std::sqrt(sum.values[i]) : sum.values[i]) / sum.passes);
+  }
   return image;
 }
 

@@ -13,7 +13,8 @@ namespace airlight {
 // Centres of the n x n sub-pixels relative to the pixel's centre [pixel]; the one nearest to it comes first.
 std::vector<glm::dvec2> subpixel_centres(int n);
 
-// Sums the passes in double. Places and directions (depth, normal), which cannot be averaged, are those of the first pass.
+// Sums the passes in double. Places and directions (depth, normal), which cannot be averaged, are those of the first pass;
+// standard errors are of passes that are independent.
 class Supersampler {
  public:
   void add(const std::string& name, const HostImage&);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "common/formulas/double.h"
@@ -15,7 +14,6 @@ namespace airlight {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double black = 746;  // exp(-746) is 0 in double
 
 // Begin and end of each piece of 0..reach outside the shadows, cut at the breaks, as integrate() takes them.
 std::vector<double> pieces_of(const std::vector<Interval>& shadows, std::vector<double> breaks, double reach) {
@@ -43,69 +41,13 @@ std::vector<double> pieces_of(const std::vector<Interval>& shadows, std::vector<
 
 }  // namespace
 
-RelativeMedium::RelativeMedium(const Medium& medium, const glm::dvec3& camera) : Medium(medium) {
-  for (Gaussian& g : gaussians) g.center -= camera;
-  if (!grid) return;
-  grid->transform = glm::translate(glm::dmat4(1), -camera) * grid->transform;
-  field.emplace(*grid);
-}
-
-double depth_to_light(const RelativeMedium& medium, const glm::dvec3& point, const RelativeLight& light, double length) {
-  double sum = 0;
-  if (light.directional) {
-    sum = optical_depth(medium.gaussians, point, -light.vector, infinity);
-    if (medium.field) sum += medium.field->depth(point, -light.vector, infinity);
-    return sum;
-  }
-  sum = medium.extinction * length + optical_depth(medium.gaussians, point, light.vector);
-  if (medium.field) {
-    const glm::dvec3 way = light.vector - point;
-    const double far = glm::length(way);
-    if (far > 0) sum += medium.field->depth(point, way / far, far);
-  }
-  return sum;
-}
-
-RayInMedium::RayInMedium(const RelativeMedium& medium, const glm::dvec3& origin, const glm::dvec3& direction, double length)
-    : medium_(medium), origin_(origin), direction_(direction), length_(length) {
-  double most = 0, end = 0;
-  for (const Gaussian& g : medium.gaussians) {
-    const OnRay on_ray{GaussianOnLine(g, origin, direction), &g};
-    const double depth = on_ray.line.depth(0, length);
-    if (!(depth > 0)) continue;
-    on_ray_.push_back(on_ray);
-    most = std::max(most, depth);
-    end = std::max(end, on_ray.line.foot + 27.5 * g.radius);  // exp(-27.5^2) is 0 in double
-  }
-  // A Gaussian this much thinner than another is below rounding, even one next to the light (1/r^2 up to 1e12 in metres).
-  std::erase_if(on_ray_, [&](const OnRay& o) { return o.line.depth(0, length) < 1e-30 * most; });
-  if (medium.field) grid_.emplace(*medium.field, origin, direction, length);
-  if (grid_ && grid_->empty()) grid_.reset();
-  if (grid_) end = std::max(end, grid_->end());
-  reach_ = std::min(length, medium.extinction > 0 ? black / medium.extinction : end);
-}
-
-double RayInMedium::depth(double t) const {
-  double sum = medium_.extinction > 0 ? medium_.extinction * t : 0;
-  for (const OnRay& o : on_ray_) sum += o.line.depth(0, t);
-  if (grid_) sum += grid_->depth(t);
-  return sum;
-}
-
-glm::dvec3 RayInMedium::scattering(double t) const {
-  glm::dvec3 sum = medium_.extinction * medium_.albedo;
-  for (const OnRay& o : on_ray_) sum += o.line.density(t) * o.gaussian->albedo;
-  if (grid_) sum += grid_->extinction(t) * grid_->albedo();
-  return sum;
-}
-
 // Where what the ray passes changes: along the fade of the homogeneous part, across each Gaussian, at the grid's cells.
 std::vector<double> RayInMedium::breaks() const {
   std::vector<double> t;
   for (const double depth : {0.3, 1.0, 3.0, 10.0, 40.0, 150.0}) {
     if (medium_.extinction > 0) t.push_back(depth / medium_.extinction);
   }
-  for (const OnRay& o : on_ray_) {
+  for (const OnLine& o : on_line_) {
     for (const double radii : {-8.0, -3.0, -1.0, 0.0, 1.0, 3.0, 8.0}) t.push_back(o.line.foot + radii / o.line.a);
   }
   if (grid_) grid_->add_breaks(t);
@@ -135,9 +77,9 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
     }
   }
   // Of many Gaussians the breaks lie closer than anything changes.
-  if (medium_.gaussians.size() > 32 && !on_ray_.empty()) {
+  if (medium_.gaussians.size() > 32 && !on_line_.empty()) {
     double thinnest = infinity;
-    for (const OnRay& o : on_ray_) thinnest = std::min(thinnest, 1 / o.line.a);
+    for (const OnLine& o : on_line_) thinnest = std::min(thinnest, 1 / o.line.a);
     std::sort(t.begin(), t.end());
     double last = -infinity;
     std::erase_if(t, [&](double at) {
@@ -146,7 +88,7 @@ void RayInMedium::add_light_breaks(const RelativeLight& light, double foot, std:
       return false;
     });
   }
-  if (medium_.field && (medium_.extinction > 0 || !on_ray_.empty())) add_grid_breaks(light, t);
+  if (medium_.field && (medium_.extinction > 0 || !on_line_.empty())) add_grid_breaks(light, t);
 }
 
 // The part of the ray that the grid's box darkens is cut so that a piece of it looks toward the light through about four cells:
@@ -190,7 +132,7 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
         [&](double x) {
           const glm::dvec3 scattered = scattering(x);
           if (scattered == glm::dvec3(0)) return scattered;  // the way to the light is long to compute
-          const double tau = depth(x) + depth_to_light(medium_, origin_ + x * direction_, light, 0);
+          const double tau = depth(x) + depth_to_light(medium_, at(x), light, 0);
           return phase * std::exp(-tau) * scattered;
         },
         pieces_of(shadow, t, reach_), tolerance);
@@ -208,7 +150,7 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
           const double x = foot + h * std::sinh(s), r = h * std::cosh(s);
           const glm::dvec3 scattered = scattering(x);
           if (scattered == glm::dvec3(0)) return scattered;
-          const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, origin_ + x * direction_, light, r);
+          const double tau = depth(std::max(x, 0.0)) + depth_to_light(medium_, at(x), light, r);
           return f64::phase_value(kind, g, -std::tanh(s)) * std::exp(-tau) / r * scattered;
         },
         pieces, tolerance);
@@ -218,12 +160,12 @@ Integral RayInMedium::scattered(const RelativeLight& light, const std::vector<In
 
 Integral RayInMedium::emitted(double tolerance) const {
   bool any = medium_.emission != glm::dvec3(0);
-  for (const OnRay& o : on_ray_) any = any || o.gaussian->emission != glm::dvec3(0);
+  for (const OnLine& o : on_line_) any = any || o.gaussian->emission != glm::dvec3(0);
   if (!any) return {};
   Integral sum = integrate(
       [&](double t) {
         glm::dvec3 source = medium_.emission;
-        for (const OnRay& o : on_ray_) source += o.line.density(t) / o.line.c * o.gaussian->emission;
+        for (const OnLine& o : on_line_) source += o.line.density(t) / o.line.c * o.gaussian->emission;
         return std::exp(-depth(t)) * source;
       },
       pieces_of({}, breaks(), reach_), tolerance);

@@ -6,15 +6,27 @@
 #include <limits>
 #include <numbers>
 
+#include "common/error.h"
 #include "common/formulas/double.h"
 #include "common/reference/indirect.h"
 #include "common/reference/indirect_exact.h"
+#include "common/reference/paths.h"
 
 namespace airlight {
 
 Reference::Reference(const Scene& scene, const ReferenceSettings& settings)
     : scene_(scene), medium_(scene.medium, scene.camera.position), settings_(settings), visibility_(scene) {
   for (const LightSource& l : scene.lights) lights_.emplace_back(l, scene.camera.position);
+  const glm::dvec3& albedo = medium_.albedo;
+  if (settings.max_bounces > 1000 && medium_.extinction > 0 && std::max({albedo.x, albedo.y, albedo.z}) == 1) {
+    for (const RelativeLight& l : lights_) {
+      if (l.directional && l.power != glm::dvec3(0)) {
+        throw InputError(
+            "max_bounces: fog without bounds that absorbs nothing scatters a directional light without end, expected "
+            "at most 1000 or an albedo below 1");
+      }
+    }
+  }
   forward_ = glm::normalize(scene.camera.look_at - scene.camera.position);
   right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
   up_ = glm::cross(right_, forward_);
@@ -108,7 +120,7 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   pixel.surface = pixel.surface_direct + pixel.surface_indirect + pixel.surface_ambient;
 }
 
-ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferenceParts& parts) const {
+ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferenceParts& parts, const Progress* stop) const {
   const glm::dvec3 d = direction(at, extent);
   const Seen seen = look(d);
   ReferencePixel pixel;
@@ -122,20 +134,36 @@ ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferencePar
   pixel.transmittance = std::exp(-tau);
   glm::dvec3 error(0);
   if (parts.surface) shade(d, seen, pixel, error);
-  if (parts.airlight) add_airlight(d, ray, pixel, error);
+  if (parts.airlight) add_airlight(ray, at, pixel, error, stop);
   for (int c = 0; c < 3; ++c) {
     if (error[c] > 0) pixel.error = std::max(pixel.error, error[c] / pixel.beauty()[c]);
   }
   return pixel;
 }
 
-void Reference::add_airlight(const glm::dvec3& d, const RayInMedium& ray, ReferencePixel& pixel, glm::dvec3& error) const {
+void Reference::add_airlight(const RayInMedium& ray, const glm::dvec2& at, ReferencePixel& pixel, glm::dvec3& error,
+                             const Progress* stop) const {
   for (const RelativeLight& light : lights_) {
-    const auto shadow = settings_.shadows ? visibility_.shadows(glm::dvec3(0), d, ray.reach(), light) : std::vector<Interval>();
+    if (settings_.single_by_paths) {
+      pixel.airlight_of_light.emplace_back(0);
+      continue;
+    }
+    const auto shadow =
+        settings_.shadows ? visibility_.shadows(glm::dvec3(0), ray.direction(), ray.reach(), light) : std::vector<Interval>();
     const Integral part = ray.scattered(light, shadow, settings_.tolerance);
     pixel.airlight_of_light.push_back(part.value);
     pixel.airlight += part.value;
     error += part.error;
+  }
+  if (settings_.any_paths()) {
+    const Paths paths(medium_, visibility_, lights_,
+                      {settings_.max_bounces, settings_.paths, settings_.single_by_paths, settings_.shadows, settings_.seed});
+    const PathEstimate more = paths.along(ray, at, stop);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      pixel.airlight_of_light[i] += more.of_light[i];
+      pixel.airlight += more.of_light[i];
+    }
+    pixel.standard_error = more.standard_error;
   }
   const Integral emitted = ray.emitted(settings_.tolerance);
   pixel.airlight += emitted.value - std::expm1(-ray.depth()) * medium_.ambient;

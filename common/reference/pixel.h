@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/progress.h"
 #include "common/reference/airlight.h"
 #include "common/reference/visibility.h"
 #include "common/scene/scene.h"
@@ -21,6 +22,12 @@ struct ReferenceSettings {
   bool shadows = true;      // off: V = 1 everywhere, on surfaces and in the medium
   Indirect indirect = Indirect::off;
   double indirect_tolerance = 1e-3;  // relative, of what is indirect and exact from each light: 1e-6..1e-1
+  int max_bounces = 1;               // orders of scattering in the airlight; those above the first by random paths (paths.h)
+  int paths = 256;                   // a pixel, >= 2
+  bool single_by_paths = false;      // the first order by paths, too, instead of by quadrature
+  std::uint32_t seed = 0;            // of the paths
+
+  bool any_paths() const { return max_bounces > 1 || single_by_paths; }
 };
 
 struct ReferencePixel {
@@ -33,8 +40,10 @@ struct ReferencePixel {
   glm::dvec3 surface_direct{0}, surface_indirect{0}, surface_ambient{0};
   glm::dvec3 airlight{0};  // [W/m^2/sr] all lights, ambient and emission
   std::vector<glm::dvec3> airlight_of_light;
-  // Estimated relative error of the worst channel of surface + airlight. What is indirect counts where it is exact; unbounded, it
-  // comes of a fixed rule, which leaves less than 1e-5 of it (tests/unit/surface_airlight.cpp) and is not counted.
+  glm::dvec3 standard_error{0};  // [W/m^2/sr] of the airlight, by the spread of its paths; 0 without any
+  // Estimated relative error of the worst channel of surface + airlight, that of random paths aside. What is indirect counts
+  // where it is exact; unbounded, it comes of a fixed rule, which leaves less than 1e-5 of it (tests/unit/surface_airlight.cpp)
+  // and is not counted.
   double error = 0;
 
   glm::dvec3 beauty() const { return surface + airlight; }
@@ -45,15 +54,18 @@ struct ReferenceParts {
   bool surface = true, airlight = true;
 };
 
-// The truth about one scene; const calls may come from any thread. Definitions: single scattering by point and directional lights
-// in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least distance to a point light.
-// Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// The truth about one scene; const calls may come from any thread. Definitions: light of point and directional lights scattered
+// once (or up to max_bounces times) in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least
+// distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
+// illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). Emission of a Gaussian is its
+// `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
+  // Throws InputError where a directional light and homogeneous fog of albedo 1 have no sum of so many orders.
   explicit Reference(const Scene&, const ReferenceSettings& = {});
 
-  // (x, y) in pixels from the left and the top, centres at + 0.5.
-  ReferencePixel pixel(glm::dvec2 at, Extent, const ReferenceParts& = {}) const;
+  // (x, y) in pixels from the left and the top, centres at + 0.5. Throws Interrupted when `stop` asks for it.
+  ReferencePixel pixel(glm::dvec2 at, Extent, const ReferenceParts& = {}, const Progress* stop = nullptr) const;
 
   // Whether depth, normal, material or a light's shadow on the surface jumps within 1/100 pixel of the point.
   bool edge(glm::dvec2 at, Extent) const;
@@ -69,7 +81,7 @@ class Reference {
   bool lit(const Seen&, const RelativeLight&) const;
   bool jumps(const Seen& here, const Seen& there, double pixel_angle) const;
   void shade(const glm::dvec3& direction, const Seen&, ReferencePixel&, glm::dvec3& error) const;
-  void add_airlight(const glm::dvec3& direction, const RayInMedium&, ReferencePixel&, glm::dvec3& error) const;
+  void add_airlight(const RayInMedium&, const glm::dvec2& at, ReferencePixel&, glm::dvec3& error, const Progress* stop) const;
   Integral indirect(const Seen&, const glm::dvec3& mirror, const RelativeLight&) const;
 
   Scene scene_;

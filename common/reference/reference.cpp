@@ -59,6 +59,8 @@ void put_all(std::map<std::string, HostImage>& images, const Scene& scene, int x
       put(image, x, y, p.surface_ambient);
     else if (name == "airlight")
       put(image, x, y, p.airlight);
+    else if (name == "standard_error")
+      put(image, x, y, p.standard_error);
     else if (name == "normal")
       put(image, x, y, p.normal);
     else if (name == "depth")
@@ -104,7 +106,7 @@ ReferenceFrame reference_frame(const Scene& scene, Extent extent, const Referenc
       if (x % 32 == 0 || settings.indirect == Indirect::exact) progress.check();
       const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
       const glm::dvec2 at(x + 0.5, y + 0.5);
-      frame.pixels[i] = reference.pixel(at, extent);
+      frame.pixels[i] = reference.pixel(at, extent, {}, &progress);
       if (with_edges) edges[i] = reference.edge(at, extent);
     }
   });
@@ -116,10 +118,15 @@ ReferenceFrame reference_frame(const Scene& scene, Extent extent, const Referenc
 std::map<std::string, HostImage> render_reference(const Scene& scene, const FrameRequest& request, int threads, Stats& stats,
                                                   Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
-                                   indirect_of(request.knobs.choice("indirect")), request.knobs.number("indirect_tolerance")};
+  ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
+                             indirect_of(request.knobs.choice("indirect")), request.knobs.number("indirect_tolerance")};
+  settings.max_bounces = static_cast<int>(request.knobs.number("max_bounces"));
+  settings.paths = static_cast<int>(request.knobs.number("paths"));
+  settings.single_by_paths = request.knobs.choice("single_scattering") == "paths";
+  settings.seed = static_cast<std::uint32_t>(request.knobs.number("seed"));
   const Reference reference(scene, settings);
-  const ReferenceParts parts{wanted(request, "surface"), wanted(request, "airlight")};
+  const ReferenceParts parts{wanted(request, "surface"),
+                             wanted(request, "airlight") || request.images.contains("standard_error")};
   std::map<std::string, HostImage> images;
   for (const std::string& name : request.images) {
     images.emplace(name, HostImage(request.extent, name == "edge" ? 1 : image_channels(name)));
@@ -129,7 +136,7 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
     for (int x = 0; x < request.extent.width; ++x) {
       if (x % 32 == 0 || settings.indirect == Indirect::exact) progress.check();
       const glm::dvec2 at(x + 0.5 + request.offset.x, y + 0.5 + request.offset.y);
-      put_all(images, scene, x, y, reference.pixel(at, request.extent, parts));
+      put_all(images, scene, x, y, reference.pixel(at, request.extent, parts, &progress));
       if (edge != images.end()) edge->second.at(x, y) = reference.edge(at, request.extent) ? 1.0F : 0.0F;
     }
   });

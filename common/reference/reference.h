@@ -1,4 +1,4 @@
-// Ground truth: single scattering in double precision (technique `reference`; knobs in common/techniques/reference.h).
+// Ground truth in double precision (technique `reference`; knobs in common/techniques/reference.h).
 #pragma once
 
 #include <map>
@@ -27,8 +27,8 @@ struct ReferenceFrame {
 // The same bits for any number of threads. Throws Interrupted when asked to stop.
 ReferenceFrame reference_frame(const Scene&, Extent, const ReferenceSettings&, bool with_edges, int threads, Progress&);
 
-// The images of the request by name, as any technique gives them; "edge" (1 or 0) too where it is asked for. In `stats` one step,
-// "reference".
+// The images of the request by name, as any technique gives them; "standard_error" (of the airlight, by the spread of random
+// paths; 0 without any) and "edge" (1 or 0) too where they are asked for. In `stats` one step, "reference".
 std::map<std::string, HostImage> render_reference(const Scene&, const FrameRequest&, int threads, Stats&, Progress&);
 
 }  // namespace airlight

@@ -64,19 +64,30 @@ Visibility::Visibility(const Scene& scene) : triangles_(scene) {
   }
 }
 
-std::optional<Hit> Visibility::nearest(const glm::dvec3& origin, const glm::dvec3& direction, double from,
-                                       std::uint32_t own) const {
+template <class Counts>
+Hit Visibility::first(const glm::dvec3& origin, const glm::dvec3& direction, double from, const Counts& counts) const {
   Hit best{infinity, 0};
   triangles_.walk(LineMeets(origin, direction, from, best.distance), [&](std::uint32_t i) {
-    if (i == own) return true;
+    if (!counts(i)) return true;
     const auto& t = triangles_[i];
     const double at =
         line_triangle(origin, direction, triangles_.position(t, 0), triangles_.position(t, 1), triangles_.position(t, 2));
     if (at >= from && (at < best.distance || (at == best.distance && i < best.triangle))) best = {at, i};
     return true;
   });
+  return best;
+}
+
+std::optional<Hit> Visibility::nearest(const glm::dvec3& origin, const glm::dvec3& direction, double from,
+                                       std::uint32_t own) const {
+  const Hit best = first(origin, direction, from, [&](std::uint32_t i) { return i != own; });
   if (best.distance == infinity) return std::nullopt;
   return best;
+}
+
+double Visibility::free_length(const glm::dvec3& point, const glm::dvec3& direction) const {
+  if (!any_caster_) return infinity;
+  return first(point, direction, 0, [&](std::uint32_t i) { return casts(i); }).distance;
 }
 
 bool Visibility::blocked(const glm::dvec3& point, std::uint32_t own, const RelativeLight& light) const {

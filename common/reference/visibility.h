@@ -45,6 +45,9 @@ class Visibility {
   std::optional<Hit> nearest(const glm::dvec3& origin, const glm::dvec3& direction, double from,
                              std::uint32_t own = no_triangle) const;
 
+  // [m] from a point along a unit direction to the nearest caster; infinite where there is none.
+  double free_length(const glm::dvec3& point, const glm::dvec3& direction) const;
+
   // Whether a caster other than triangle `own` stands between a surface point and the light.
   bool blocked(const glm::dvec3& point, std::uint32_t own, const RelativeLight&) const;
 
@@ -53,6 +56,8 @@ class Visibility {
   std::vector<Interval> shadows(const glm::dvec3& origin, const glm::dvec3& direction, double length, const RelativeLight&) const;
 
  private:
+  template <class Counts>
+  Hit first(const glm::dvec3& origin, const glm::dvec3& direction, double from, const Counts&) const;  // infinite: none
   std::vector<Interval> shadows_along_light(const glm::dvec3& origin, const glm::dvec3& direction, const RelativeLight&,
                                             double foot) const;
   bool casts(std::uint32_t triangle) const { return casts_[triangles_[triangle].surface]; }

@@ -22,7 +22,7 @@ Knob exact_indirect_knob() {
 Technique reference_technique() {
   Technique t;
   t.name = "reference";
-  t.summary = "ground truth: double precision, adaptive quadrature, exact visibility; slow";
+  t.summary = "ground truth: double precision, adaptive quadrature, exact visibility, random paths for multiple scattering; slow";
   t.knobs = {
       {.name = "tolerance",
        .kind = Knob::Kind::number,
@@ -47,7 +47,40 @@ Technique reference_technique() {
        .choices = {},
        .meaning = "relative error of what indirect=exact brings to a pixel from each light",
        .sweep = {}},
+      {.name = "max_bounces",
+       .kind = Knob::Kind::integer,
+       .standard = "1",
+       .least = 1,
+       .most = 1000000,
+       .choices = {},
+       .meaning =
+           "how often the medium scatters light at most on its way to the camera: those orders above 1 by random paths without "
+           "bias, which surfaces block and end; a million is as good as all",
+       .sweep = {}},
+      {.name = "paths",
+       .kind = Knob::Kind::integer,
+       .standard = "256",
+       .least = 2,
+       .most = 1000000000,
+       .choices = {},
+       .meaning = "random paths a pixel; the image standard_error tells how far their mean is known",
+       .sweep = {}},
+      {.name = "single_scattering",
+       .kind = Knob::Kind::choice,
+       .standard = "quadrature",
+       .choices = {"quadrature", "paths"},
+       .meaning = "how the first order is found",
+       .sweep = {}},
+      {.name = "seed",
+       .kind = Knob::Kind::integer,
+       .standard = "0",
+       .least = 0,
+       .most = 4294967295,
+       .choices = {},
+       .meaning = "of the random paths: another one gives others",
+       .sweep = {}},
   };
+  t.own_images = {"standard_error"};
   t.refuses = refuses_noise;
   return t;
 }

@@ -85,7 +85,8 @@ struct Technique {
   std::string_view name;
   std::string_view summary;
   std::vector<Knob> knobs;
-  bool multiple_scattering = false;  // it renders orders above the first, which the truth of sweeps has not
+  std::vector<std::string_view> own_images = {};  // that no other gives
+  bool multiple_scattering = false;               // it renders orders above the first, which the truth of sweeps has not
   // Why this technique cannot render the scene, or nothing.
   std::optional<std::string> (*refuses)(const Scene&) = nullptr;
   Plan (*plan)(const Scene&, const FrameRequest&) = nullptr;  // null for `reference`, which runs on no backend
@@ -97,8 +98,8 @@ std::span<const Technique> techniques();
 // Throws InputError naming the known ones.
 const Technique& technique(std::string_view name);
 
-// Every image that the scene can give: beauty surface surface.direct surface.indirect surface.ambient transmittance airlight
-// airlight.<light> depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
+// Every image that any technique gives of the scene: beauty surface surface.direct surface.indirect surface.ambient transmittance
+// airlight airlight.<light> depth normal optical_depth. airlight.<light> is by the light's name, else its index from 0.
 std::vector<std::string> image_names(const Scene&);
 std::string light_image_name(const Scene&, std::size_t light);
 int image_channels(std::string_view name);

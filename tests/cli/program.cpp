@@ -103,6 +103,35 @@ TEST_F(Program, EveryImageItNamesCanBeWritten) {
   }
 }
 
+// Four times the paths or four samples a pixel: half the standard error.
+TEST_F(Program, TellsTheErrorOfRandomPaths) {
+  const auto middle_error = [&](const std::string& more) {
+    const Told told = work.run(
+        "render scene.json -o a.exr --technique reference --resolution 8x6 --set max_bounces=3 --aov "
+        "standard_error " +
+        more);
+    EXPECT_EQ(told.code, 0) << told.err;
+    std::vector<float> values;
+    for (const NamedImage& i : read_images(work.path("a.exr").string())) {
+      if (i.name != "standard_error") continue;
+      EXPECT_EQ(i.image.channels, 3);
+      values = i.image.values;
+    }
+    EXPECT_EQ(values.size(), 3U * 8 * 6);
+    std::sort(values.begin(), values.end());
+    return static_cast<double>(values.at(values.size() / 2));
+  };
+  const double once = middle_error("--set paths=100");
+  EXPECT_GT(once, 0);
+  for (const std::string more : {"--set paths=400", "--set paths=100 --supersample 2"}) {
+    const double ratio = middle_error(more) / once;
+    std::printf("%s: %.3f of the standard error\n", more.c_str(), ratio);
+    EXPECT_NEAR(ratio, 0.5, 0.1);
+  }
+  EXPECT_EQ(middle_error("--set paths=100 --threads 3"), once);
+  EXPECT_NE(middle_error("--set paths=100 --set seed=1"), once);
+}
+
 TEST_F(Program, GlGivesTheSameImage) {
   ASSERT_EQ(work.run("render scene.json -o cpu.exr --aov airlight").code, 0);
   const Told told = work.run("render scene.json -o gl.exr --aov airlight --backend gl --gl-context osmesa");
@@ -176,6 +205,9 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --set table_node=64", 2, "table_nodes");
   refused("render scene.json -o a.exr --set x", 2, "NAME=VALUE");
   refused("render scene.json -o a.exr --aov dept", 2, "did you mean \"depth\"");
+  refused("render scene.json -o a.exr --aov standard_error", 2, "only technique reference");
+  refused("render scene.json -o a.exr --technique reference --set max_bounces=2000", 2, "max_bounces: fog without bounds");
+  refused("render scene.json -o a.exr --technique reference --set paths=1", 2, "expected an integer in 2..");
   refused("render scene.json -o a.exr --simd sse", 2, "scalar");
   refused("render scene.json -o a.exr --simd neon", 3, "NEON");
   refused("render scene.json -o a.exr --backend vulkan", 2, "cpu | gl");

@@ -1,0 +1,89 @@
+// airlight-network: the error of illumination-network beside the reference's random paths, by optical depth, albedo and phase
+// function, and its decay with particles and directions; what both take for the same error.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/truth/network_error.h"
+
+namespace airlight {
+
+namespace {
+
+constexpr Extent small{12, 12}, full{512, 512};
+
+constexpr NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}};
+
+void errors(int paths) {
+  fmt::print(
+      "Five Gaussians, a lamp and the sun, {} x {} pixels. Relative RMSE in percent beside the reference's paths, their noise\n"
+      "taken off, and the mean beside theirs; by particles, directions and cells of the source function\n",
+      small.width, small.height);
+  fmt::print("{:>5} {:>6} {:>4} {:>9} {:>7}", "depth", "albedo", "g", "multiple", "noise");
+  for (const NetworkSize& s : sizes) fmt::print("{:>18}", fmt::format("{}, {}, {}", s.particles, s.directions, s.resolution));
+  fmt::print("\n");
+  for (const double g : {0.0, 0.8}) {
+    for (const double depth : {1.0, 4.0, 10.0, 40.0}) {
+      if (g > 0 && depth == 4) continue;
+      for (const double albedo : {0.5, 0.9, 0.99}) {
+        const Scene scene = network_cloud(depth, albedo, g);
+        // Little of what a path meets is scattered forward to the camera, but much where it is.
+        const NetworkTruth truth = network_truth(scene, small, g > 0 ? 4 * paths : paths);
+        fmt::print("{:5} {:6} {:4} {:7.0f} % {:7.2f}", depth, albedo, g, 100 * (1 - truth.single / truth.mean),
+                   100 * truth.noise);
+        for (const NetworkSize& s : sizes) {
+          const NetworkError e = network_error(scene, truth, s);
+          fmt::print("{:11.2f} {:6.3f}", 100 * e.error, e.mean);
+          std::fflush(stdout);
+        }
+        fmt::print("\n");
+      }
+    }
+  }
+}
+
+// The smallest network below 5 %, from nothing to a picture; the paths that leave a noise of 5 %, of which a pixel of a small
+// picture takes as long as one of a large one.
+void times(int paths) {
+  fmt::print("\nSeconds to a relative RMSE of 5 % at {} x {}, on {} threads: network, paths (from {} a pixel of {} x {})\n",
+             full.width, full.height, std::thread::hardware_concurrency(), paths, small.width, small.height);
+  for (const double depth : {4.0, 10.0}) {
+    const Scene scene = network_cloud(depth, 0.9, 0);
+    const NetworkTruth truth = network_truth(scene, small, paths);
+    const double needed = paths * std::pow(truth.noise / 0.05, 2);
+    const double pixels = static_cast<double>(full.width) * full.height / (static_cast<double>(small.width) * small.height);
+    const double of_paths = (truth.seconds_all - truth.seconds_once) / paths * needed * pixels;
+    for (const NetworkSize& s : {NetworkSize{256, 64, 16}, NetworkSize{512, 64, 32}, NetworkSize{1024, 64, 32},
+                                 NetworkSize{2048, 64, 32}, NetworkSize{4096, 64, 32}, NetworkSize{4096, 256, 64}}) {
+      const NetworkError e = network_error(scene, truth, s);
+      if (!(e.error <= 0.05)) continue;
+      Renderer renderer({.backend = "cpu"});
+      const auto start = std::chrono::steady_clock::now();
+      renderer.render(scene, network_settings(scene, s, full));
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      fmt::print(
+          "depth {}, albedo 0.9, isotropic: {:.3f} ({} particles, {} directions, {} cells: {:.1f} %), {:.0f} ({:.0f} paths a "
+          "pixel): "
+          "{:.0f} times\n",
+          depth, seconds, s.particles, s.directions, s.resolution, 100 * e.error, of_paths, needed, of_paths / seconds);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace airlight
+
+int main(int argc, char** argv) {
+  const int paths = argc > 1 ? std::atoi(argv[1]) : 2000;
+  if (argc > 2 || paths < 2) {
+    fmt::print(stderr, "airlight-network [PATHS]: expected at least 2 paths a pixel\n");
+    return 2;
+  }
+  airlight::errors(paths);
+  airlight::times(paths);
+  return 0;
+}

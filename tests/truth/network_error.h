@@ -1,0 +1,112 @@
+// What the technique illumination-network is apart from the reference's random paths, for tests and airlight-network.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/airlight.h"
+#include "common/reference/optical_depth.h"
+#include "common/reference/reference.h"
+#include "tests/truth/scenes.h"
+
+namespace airlight {
+
+// Five Gaussians under a lamp and the sun, of this optical depth along the thickest line from side to side.
+inline Scene network_cloud(double depth, double albedo, double g) {
+  Scene scene;
+  scene.camera = {.position = {0, 0, 7}, .look_at = {0, 0, 0}, .vertical_fov = 40};
+  if (g != 0) scene.medium.phase = {PhaseKind::henyey_greenstein, g};
+  scene.medium.gaussians = {{.center = {-0.9, 0, 0}, .radius = 0.8, .extinction = 2.2},
+                            {.center = {0.7, 0.2, 0.3}, .radius = 0.9, .extinction = 2},
+                            {.center = {0, 0.8, -0.2}, .radius = 0.7, .extinction = 2.5},
+                            {.center = {-0.3, -0.6, 0.4}, .radius = 0.6, .extinction = 2},
+                            {.center = {0.9, -0.5, -0.5}, .radius = 0.6, .extinction = 2.4}};
+  double as_they_are = 0;
+  for (int i = 0; i < 64 * 64; ++i) {
+    const glm::dvec3 from(-9, 0.05 * (i % 64 - 31.5), 0.05 * (i / 64 - 31.5));
+    as_they_are = std::max(as_they_are, optical_depth(scene.medium.gaussians, from, {1, 0, 0}, 100));
+  }
+  for (Gaussian& one : scene.medium.gaussians) one.extinction *= depth / as_they_are, one.albedo = glm::dvec3(albedo);
+  scene.lights = {point_light({0.2, 2.4, 0.8}, glm::dvec3(4)), directional_light({0.7, -0.6, -0.4}, glm::dvec3(2.5))};
+  return scene;
+}
+
+// All orders of scattering; everything is gray, one channel stands for all.
+struct NetworkTruth {
+  Extent extent;
+  std::vector<double> values;
+  double mean = 0, single = 0;               // of the image, and of what is scattered once
+  double noise = 0;                          // standard error of a pixel, root of the mean square, beside the mean
+  double seconds_once = 0, seconds_all = 0;  // what it took, with and without paths, on `threads`
+  int paths = 0, threads = 0;
+};
+
+inline NetworkTruth network_truth(const Scene& scene, Extent extent, int paths) {
+  NetworkTruth truth;
+  truth.extent = extent, truth.paths = paths, truth.threads = static_cast<int>(std::thread::hardware_concurrency());
+  NoProgress progress;
+  const auto rendered = [&](int max_bounces, double& seconds) {
+    ReferenceSettings settings;
+    settings.tolerance = 1e-6, settings.max_bounces = max_bounces, settings.paths = paths;
+    const auto start = std::chrono::steady_clock::now();
+    const ReferenceFrame frame = reference_frame(scene, extent, settings, false, truth.threads, progress);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return frame;
+  };
+  const ReferenceFrame once = rendered(1, truth.seconds_once), all = rendered(1000000, truth.seconds_all);
+  const auto pixels = static_cast<double>(all.pixels.size());
+  for (std::size_t i = 0; i < all.pixels.size(); ++i) {
+    const double value = all.pixels[i].airlight.x, error = all.pixels[i].standard_error.x;
+    truth.values.push_back(value);
+    truth.mean += value / pixels, truth.single += once.pixels[i].airlight.x / pixels, truth.noise += error * error / pixels;
+  }
+  truth.noise = std::sqrt(truth.noise) / truth.mean;
+  return truth;
+}
+
+struct NetworkError {
+  double apart = 0;  // relative RMSE: the network's error and the truth's noise
+  double error = 0;  // the noise taken off
+  double mean = 0;   // of the image beside the truth's: 1 without bias
+};
+
+struct NetworkSize {
+  int particles, directions, resolution;
+};
+
+// Rounds end where sources change little beside the largest, which a peak of the phase function makes much larger than the rest.
+inline RenderSettings network_settings(const Scene& scene, const NetworkSize& size, Extent extent) {
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  settings.knobs = {{"particles", std::to_string(size.particles)},
+                    {"directions", std::to_string(size.directions)},
+                    {"resolution", std::to_string(size.resolution)},
+                    {"tolerance", scene.medium.phase.kind == PhaseKind::isotropic ? "1e-4" : "1e-6"},
+                    {"iterations", "1000"}};
+  settings.resolution = extent;
+  return settings;
+}
+
+inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, const NetworkSize& size) {
+  Renderer renderer({.backend = "cpu"});
+  const Frame frame = renderer.render(scene, network_settings(scene, size, truth.extent));
+  const HostImage& image = frame.image("beauty");
+  double squares = 0, mean = 0;
+  const auto pixels = static_cast<double>(truth.values.size());
+  for (std::size_t k = 0; k < truth.values.size(); ++k) {
+    const auto value = static_cast<double>(image.values[3 * k]);
+    squares += (value - truth.values[k]) * (value - truth.values[k]) / pixels;
+    mean += value / pixels;
+  }
+  NetworkError e;
+  e.apart = std::sqrt(squares) / truth.mean;
+  e.error = std::sqrt(std::max(e.apart * e.apart - truth.noise * truth.noise, 0.0));
+  e.mean = mean / truth.mean;
+  return e;
+}
+
+}  // namespace airlight
