@@ -80,7 +80,6 @@ TEST_P(GaussianSkips, OnesBehindEverySurface) {
   Surface surface;
   surface.mesh = wall;
   surface.casts_shadow = false;
-  surface.material.albedo = {0, 0, 0};
   scene.surfaces = {surface};
   Scene none = scene;
   none.medium.gaussians.clear();
