@@ -15,6 +15,7 @@ namespace airlight {
 
 void run_tile(const ViewTransmittance&, const TileView&, Simd);
 void run_tile(const SurfaceAirlight&, const TileView&, Simd);
+void run_tile(const EnvironmentLight&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
 // `lit`: the lit parts of each light, or nothing where every light reaches everything.
@@ -25,6 +26,7 @@ void run_tile(const LightMarch&, const TileView&, Simd);
 void run_tile(const Subsample&, const TileView&, Simd);
 void run_tile(const DepthAwareUpsample&, const TileView&, Simd);
 void run_tile(const FillAirlight&, const TileView&, Simd);
+void run_tile(const EnvironmentAirlight&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 // Those that make buffers.
 void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);

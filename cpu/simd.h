@@ -60,6 +60,9 @@ HWY_INLINE Real first_lanes() { return hn::ConvertTo(Floats(), hn::Iota(Ints(), 
 
 #define FORMULA HWY_INLINE
 #define OUT(type) type&
+#define IN_LIST(name, count) const real* name
+#define OUT_LIST(name, count) real* name
+#define IN_OUT_LIST(name, count) real* name
 #define EXACT
 
 using real = Real;
@@ -158,6 +161,9 @@ HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny,
 
 #undef FORMULA
 #undef OUT
+#undef IN_LIST
+#undef OUT_LIST
+#undef IN_OUT_LIST
 #undef EXACT
 }  // namespace airlight::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -53,7 +53,9 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
       }
     }
     for (int c = 0; c < 3; ++c) {
-      store(select(hit, direct[c] + indirect[c] + ambient[c], t * a.background[c]), view.plane(a.surface, c) + i);
+      Real all = select(hit, direct[c] + indirect[c] + ambient[c], t * a.background[c]);
+      if (a.environment) all += load(view.plane(a.environment, c) + i);
+      store(all, view.plane(a.surface, c) + i);
       if (a.surface_direct) store(direct[c], view.plane(a.surface_direct, c) + i);
       if (a.surface_ambient) store(ambient[c], view.plane(a.surface_ambient, c) + i);
     }

@@ -4,6 +4,9 @@
 #define table int
 #define FORMULA
 #define OUT(type) out type
+#define IN_LIST(name, count) real name[count]
+#define OUT_LIST(name, count) out real name[count]
+#define IN_OUT_LIST(name, count) inout real name[count]
 #define EXACT precise
 
 // Every table of a step lies in this buffer; a `table` is where it begins.

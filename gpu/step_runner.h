@@ -98,6 +98,7 @@ void run(const SurfaceVisibility&, StepRunner&, const Progress&);
 void run(const ShadowPlanes&, StepRunner&, const Progress&);
 void run(const ViewTransmittance&, StepRunner&, const Progress&);
 void run(const SurfaceAirlight&, StepRunner&, const Progress&);
+void run(const EnvironmentLight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);
 void run(const DensityInjection&, StepRunner&, const Progress&);
@@ -113,6 +114,7 @@ void run(const LightMarch&, StepRunner&, const Progress&);
 void run(const Subsample&, StepRunner&, const Progress&);
 void run(const DepthAwareUpsample&, StepRunner&, const Progress&);
 void run(const FillAirlight&, StepRunner&, const Progress&);
+void run(const EnvironmentAirlight&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

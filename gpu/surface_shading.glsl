@@ -7,6 +7,7 @@ layout(binding = 2) uniform sampler2DArray material_image;
 layout(binding = 3) uniform sampler2DArray transmittance_image;
 layout(binding = 4) uniform sampler2DArray light_transmittance_image;
 layout(binding = 5) uniform sampler2DArray indirect_image;
+layout(binding = 6) uniform sampler2DArray environment_image;
 layout(binding = 0, rgba32f) uniform writeonly image2DArray surface_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray direct_image;
 layout(binding = 2, rgba32f) uniform writeonly image2DArray ambient_image;
@@ -59,6 +60,9 @@ void main() {
   indirect = texelFetch(indirect_image, at, 0).xyz;
 #endif
   vec3 surface = index >= 0.0 ? direct + indirect + ambient : background.xyz * through;
+#ifdef WITH_ENVIRONMENT
+  surface += texelFetch(environment_image, at, 0).xyz;
+#endif
   imageStore(surface_image, at, vec4(surface, 0.0));
 #ifdef WITH_DIRECT
   imageStore(direct_image, at, vec4(direct, 0.0));

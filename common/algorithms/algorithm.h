@@ -8,6 +8,8 @@
 #include "common/algorithms/compose.h"
 #include "common/algorithms/density_injection.h"
 #include "common/algorithms/depth_aware_upsample.h"
+#include "common/algorithms/environment_airlight.h"
+#include "common/algorithms/environment_light.h"
 #include "common/algorithms/fill_airlight.h"
 #include "common/algorithms/gaussian_airlight.h"
 #include "common/algorithms/homogeneous_airlight.h"
@@ -28,10 +30,10 @@
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, SurfaceShading,
-                               HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
-                               NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians, LightMarch,
-                               Subsample, DepthAwareUpsample, FillAirlight, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight,
+                               SurfaceShading, HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork,
+                               ParticleLight, NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians,
+                               LightMarch, Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight, Compose>;
 
 struct Step {
   Algorithm what;

@@ -13,6 +13,7 @@ struct SurfaceShading {
   Image distance, normal, material, transmittance;
   Image light_transmittance;  // r32f, one layer a light, 0..1; optional: what else stands in the light's way
   Image indirect;             // rgb32f, as SurfaceAirlight makes it; optional: added to `surface`
+  Image environment;          // rgb32f, as EnvironmentLight makes it; optional: added to `surface`
   std::vector<Material> materials;
   std::vector<Light> lights;
   View view;
@@ -34,6 +35,7 @@ struct SurfaceShading {
     v(in("transmittance"), s.transmittance);
     v(in("light_transmittance"), s.light_transmittance);
     v(in("indirect", "W/m^2/sr"), s.indirect);
+    v(in("environment", "W/m^2/sr"), s.environment);
     v(knob("materials"), s.materials);
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);

@@ -10,6 +10,9 @@ using mask = bool;
 using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
+#define IN_LIST(name, count) const real* name
+#define OUT_LIST(name, count) real* name
+#define IN_OUT_LIST(name, count) real* name
 #define EXACT
 
 inline bool any_lane(mask m) { return m; }
@@ -53,5 +56,8 @@ inline real atan_(real x) { return std::atan(x); }
 
 #undef FORMULA
 #undef OUT
+#undef IN_LIST
+#undef OUT_LIST
+#undef IN_OUT_LIST
 #undef EXACT
 }  // namespace airlight::f64

@@ -33,6 +33,9 @@ using mask = bool;
 using table = const float*;
 #define FORMULA inline
 #define OUT(type) type&
+#define IN_LIST(name, count) const real* name
+#define OUT_LIST(name, count) real* name
+#define IN_OUT_LIST(name, count) real* name
 #define EXACT
 
 inline bool any_lane(mask m) { return m; }
@@ -72,5 +75,8 @@ inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, rea
 
 #undef FORMULA
 #undef OUT
+#undef IN_LIST
+#undef OUT_LIST
+#undef IN_OUT_LIST
 #undef EXACT
 }  // namespace airlight::f32

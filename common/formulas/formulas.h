@@ -13,3 +13,5 @@
 #include "common/formulas/network.h"
 #include "common/formulas/upsample.h"
 #include "common/formulas/noise.h"
+#include "common/formulas/spherical_harmonics.h"
+#include "common/formulas/environment.h"

@@ -5,19 +5,13 @@
 #include <utility>
 
 #include "common/plan/airlight_tables.h"
+#include "common/plan/frame_ids.h"
 #include "common/plan/hash.h"
 #include "common/plan/shadow_volumes.h"
 #include "common/plan/surface_airlight_tables.h"
 #include "common/plan/upload.h"
 
 namespace airlight {
-
-namespace {
-
-// Fixed, so that what is held under them stays where other images are wanted.
-enum : std::uint32_t { geometry_id = 1, per_light_id = 4, indirect_tables_id = 5, airlight_tables_id = 6, first_image_id = 7 };
-
-}  // namespace
 
 Knob indirect_knob() {
   return {.name = "indirect",
@@ -86,6 +80,7 @@ FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
   airlight = image("airlight", Format::rgb32f);
   beauty_ = image("beauty", Format::rgb32f);
   per_light = per_light_image();
+  expect_environment_airlight();
   for (const Plan::Upload* upload : {&geometry.positions, &geometry.normals, &geometry.indices}) plan.uploads.push_back(*upload);
   plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
                                           .normals = geometry.normals.buffer,
@@ -239,12 +234,14 @@ void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t firs
 
 void FramePlan::shade(Image light_transmittance) {
   const Image indirect = add_indirect();
+  const Image environment = add_environment();
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
                                        .transmittance = transmittance,
                                        .light_transmittance = light_transmittance,
                                        .indirect = indirect,
+                                       .environment = environment,
                                        .materials = materials_of(scene),
                                        .lights = lights,
                                        .view = view,
@@ -258,6 +255,7 @@ void FramePlan::shade(Image light_transmittance) {
 }
 
 Plan FramePlan::finish() {
+  add_environment_airlight();
   plan.steps.push_back({Compose{.surface = surface_, .airlight = airlight, .beauty = beauty_}, "surface + airlight"});
   return std::move(plan);
 }

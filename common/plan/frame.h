@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,8 +21,13 @@ namespace airlight {
 Knob indirect_knob();
 // `table_nodes`, of FramePlan::add_airlight_tables().
 Knob table_nodes_knob();
+// `environment_airlight`: on | published | off, of what the medium makes of an environment.
+Knob environment_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
+
+// Why no technique lights the scene's surfaces by its environment, if so: what a grid attenuates of it is not known.
+std::optional<std::string> refuses_environment(const Scene&);
 
 // Thread nanoseconds that surfaces and shadows take, whatever the technique makes of the rays between; for estimates.
 double surface_nanoseconds(const Scene&, Extent, bool shadows);
@@ -72,11 +79,15 @@ class FramePlan {
   Image optional_image(std::string_view name, Format);
   Image per_light_image();
   Image add_indirect();
+  Image add_environment();
+  void expect_environment_airlight();
+  void add_environment_airlight();
   Image add_lit(Buffer volumes, std::uint32_t id);
   bool wanted(std::string_view name) const;
 
   std::uint32_t next_id_;
   Image surface_, surface_direct_, surface_ambient_, beauty_;
+  Image airlight_;  // with what the medium scatters of an environment; absent where that is nothing
 };
 
 }  // namespace airlight

@@ -16,6 +16,7 @@ namespace airlight {
 
 Reference::Reference(const Scene& scene, const ReferenceSettings& settings)
     : scene_(scene), medium_(scene.medium, scene.camera.position), settings_(settings), visibility_(scene) {
+  if (scene.environment) environment_.emplace(*scene.environment);
   for (const LightSource& l : scene.lights) lights_.emplace_back(l, scene.camera.position);
   const glm::dvec3& albedo = medium_.albedo;
   if (settings.max_bounces > 1000 && medium_.extinction > 0 && std::max({albedo.x, albedo.y, albedo.z}) == 1) {
@@ -91,9 +92,26 @@ Integral Reference::indirect(const Seen& seen, const glm::dvec3& mirror, const R
           glm::dvec3(0)};
 }
 
+// As it leaves the surface, or as it is far away [W/m^2/sr]. Its light is given as it arrives through the homogeneous part, as
+// that of a directional light is.
+Integral Reference::environment(const glm::dvec3& d, const Seen& seen) const {
+  if (!environment_) return {};
+  if (!seen.hit) return {environment_->radiance(d), glm::dvec3(0)};
+  LightSource source;
+  source.type = LightType::directional;
+  return environment_->reflected(seen.normal, d - 2 * glm::dot(d, seen.normal) * seen.normal,
+                                 scene_.surfaces[static_cast<std::size_t>(seen.surface)].material, [&](const glm::dvec3& u) {
+                                   source.direction = -u;
+                                   return std::exp(-depth_to_light(medium_, seen.point, {source, glm::dvec3(0)}, 0));
+                                 });
+}
+
 void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pixel, glm::dvec3& error) const {
+  const Integral from_environment = environment(d, seen);
+  pixel.surface_environment = pixel.transmittance * from_environment.value;
+  error += pixel.transmittance * from_environment.error;
   if (!seen.hit) {
-    pixel.surface = pixel.transmittance * scene_.background;
+    pixel.surface = pixel.transmittance * scene_.background + pixel.surface_environment;
     return;
   }
   const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
@@ -117,7 +135,7 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   pixel.surface_direct *= pixel.transmittance;
   pixel.surface_indirect *= pixel.transmittance;
   pixel.surface_ambient *= pixel.transmittance;
-  pixel.surface = pixel.surface_direct + pixel.surface_indirect + pixel.surface_ambient;
+  pixel.surface = pixel.surface_direct + pixel.surface_indirect + pixel.surface_ambient + pixel.surface_environment;
 }
 
 ReferencePixel Reference::pixel(glm::dvec2 at, Extent extent, const ReferenceParts& parts, const Progress* stop) const {
@@ -164,6 +182,12 @@ void Reference::add_airlight(const RayInMedium& ray, const glm::dvec2& at, Refer
       pixel.airlight += more.of_light[i];
     }
     pixel.standard_error = more.standard_error;
+  }
+  if (environment_ && !medium_.empty()) {
+    const Integral part =
+        environment_->scattered([&](const RelativeLight& l) { return ray.scattered(l, {}, settings_.tolerance); });
+    pixel.airlight += part.value;
+    error += part.error;
   }
   const Integral emitted = ray.emitted(settings_.tolerance);
   pixel.airlight += emitted.value - std::expm1(-ray.depth()) * medium_.ambient;

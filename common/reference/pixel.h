@@ -3,11 +3,13 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "common/image.h"
 #include "common/progress.h"
 #include "common/reference/airlight.h"
+#include "common/reference/environment.h"
 #include "common/reference/visibility.h"
 #include "common/scene/scene.h"
 
@@ -36,9 +38,10 @@ struct ReferencePixel {
   int surface_index = -1;    // in Scene::surfaces; -1 where nothing is hit
   double optical_depth = 0;  // to the surface or over sky_distance; 1e30 where it is infinite
   double transmittance = 1;  // 0..1
-  glm::dvec3 surface{0};     // [W/m^2/sr] as it reaches the camera: direct + indirect + ambient, or the background
+  glm::dvec3 surface{0};     // [W/m^2/sr] as it reaches the camera: direct + indirect + ambient, or the background; environment
   glm::dvec3 surface_direct{0}, surface_indirect{0}, surface_ambient{0};
-  glm::dvec3 airlight{0};  // [W/m^2/sr] all lights, ambient and emission
+  glm::dvec3 surface_environment{0};  // reflected; seen where nothing is hit
+  glm::dvec3 airlight{0};             // [W/m^2/sr] all lights, ambient and emission
   std::vector<glm::dvec3> airlight_of_light;
   glm::dvec3 standard_error{0};  // [W/m^2/sr] of the airlight, by the spread of its paths; 0 without any
   // Estimated relative error of the worst channel of surface + airlight, that of random paths aside. What is indirect counts
@@ -57,8 +60,9 @@ struct ReferenceParts {
 // The truth about one scene; const calls may come from any thread. Definitions: light of point and directional lights scattered
 // once (or up to max_bounces times) in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least
 // distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
-// illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). Emission of a Gaussian is its
-// `emission` times exp(-|x-center|^2 / radius^2).
+// illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). An
+// environment's light is hidden by nothing, on its way to surfaces and into the medium, which scatters it once whatever
+// max_bounces. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   // Throws InputError where a directional light and homogeneous fog of albedo 1 have no sum of so many orders.
@@ -83,12 +87,14 @@ class Reference {
   void shade(const glm::dvec3& direction, const Seen&, ReferencePixel&, glm::dvec3& error) const;
   void add_airlight(const RayInMedium&, const glm::dvec2& at, ReferencePixel&, glm::dvec3& error, const Progress* stop) const;
   Integral indirect(const Seen&, const glm::dvec3& mirror, const RelativeLight&) const;
+  Integral environment(const glm::dvec3& direction, const Seen&) const;
 
   Scene scene_;
   RelativeMedium medium_;
   ReferenceSettings settings_;
   std::vector<RelativeLight> lights_;
   Visibility visibility_;
+  std::optional<EnvironmentLighting> environment_;
   glm::dvec3 right_, up_, forward_;
   double tan_half_fov_ = 0;
 };

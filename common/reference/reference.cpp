@@ -57,6 +57,8 @@ void put_all(std::map<std::string, HostImage>& images, const Scene& scene, int x
       put(image, x, y, p.surface_indirect);
     else if (name == "surface.ambient")
       put(image, x, y, p.surface_ambient);
+    else if (name == "surface.environment")
+      put(image, x, y, p.surface_environment);
     else if (name == "airlight")
       put(image, x, y, p.airlight);
     else if (name == "standard_error")

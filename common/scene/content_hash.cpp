@@ -71,8 +71,12 @@ class Content {
     add(*mesh), add(casts_shadow), add(material), add(transform);
   }
   void add(const Scene& scene) {
-    const auto& [camera, sky_distance, medium, lights, surfaces, background, technique, settings, hash] = scene;
+    const auto& [camera, sky_distance, medium, lights, surfaces, background, environment, technique, settings, hash] = scene;
     add(camera), add(sky_distance), add(medium), add(lights), add(surfaces), add(background);
+    if (!environment) return;
+    const auto& [image, radiance, rotation] = *environment;
+    add(radiance), add(rotation);
+    if (image) add(image->extent.width), add(image->extent.height), add(image->values);
   }
   std::string hex() const { return sha_.hex(); }
 

@@ -16,6 +16,7 @@ inline constexpr Range extinction{0, 1e6, "1/m"};
 inline constexpr Range noise_scale{1e-6, 1e6, "m"};
 inline constexpr Range noise_offset{-1e9, 1e9, "cells"};
 inline constexpr Range fraction{0, 1, ""};
+inline constexpr Range factor{0, 1e12, ""};
 inline constexpr Range radiance{0, 1e12, "W/m^2/sr"};
 inline constexpr Range emission{0, 1e12, "W/m^3/sr"};
 inline constexpr Range intensity{0, 1e12, "W/sr"};

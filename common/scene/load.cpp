@@ -75,8 +75,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     check_emission(*medium, scene);
   }
   if (const auto noise = o.find("noise")) scene.medium.noise = parse_noise(*noise);
-  if (const auto lights = o.find("lights")) scene.lights = parse_lights(*lights);
-  if (const auto background = o.find("background")) scene.background = background->vec3(limits::radiance);
+  if (const auto lights = o.find("lights")) parse_lights(*lights, directory, loading);
+  if (const auto background = o.find("background")) {
+    if (scene.environment) background->fail("beside an environment light, expected one or the other");
+    scene.background = background->vec3(limits::radiance);
+  }
   if (const auto technique = o.find("technique")) parse_technique(*technique, scene);
   if (const auto surfaces = o.find("surfaces")) parse_surfaces(*surfaces, directory, loading, progress);
   scene.hash = scene_hash(loading);

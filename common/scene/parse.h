@@ -13,7 +13,6 @@
 namespace airlight {
 
 Camera parse_camera(const Node&);
-std::vector<LightSource> parse_lights(const Node&);
 // From `transform`, or from `translate`, `rotate` and the key that is named `factor`.
 glm::dmat4 parse_transform(const Object&, std::string_view factor);
 // Whether the linear part is no more than rounding away from one without an inverse; also for NaN.
@@ -29,7 +28,11 @@ struct Loading {
   Scene scene;
   std::vector<LoadedSurface> surfaces;  // one a surface
   std::string grid_hash, grid_name;     // of the medium's grid: its file's bytes, its name there
+  std::string environment_hash;         // of the environment's image: its file's bytes
 };
+
+// Into scene.lights and scene.environment; `directory` is where relative paths start.
+void parse_lights(const Node&, const std::string& directory, Loading&);
 
 // Into scene.medium; `directory` is where relative paths start.
 void parse_medium(const Node&, const std::string& directory, Loading&, Progress&);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "common/error.h"
+#include "common/scene/environment_file.h"
+#include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
 
@@ -49,31 +52,69 @@ LightSource parse_directional(const Node& node) {
   return l;
 }
 
-LightSource parse_light(const Node& node) {
-  // The type says which keys there are, so it is looked at first.
+Environment parse_environment(const Node& node, const std::string& directory, std::string& hash) {
+  static constexpr auto known = keys("type", "file", "scale", "rotation", "radiance");
+  const Object o(node, known);
+  Environment e;
+  const auto radiance = o.find("radiance"), scale = o.find("scale"), rotation = o.find("rotation");
+  if (radiance) {
+    for (const auto& beside : {o.find("file"), scale, rotation}) {
+      if (beside) beside->fail("beside radiance, expected one or the other");
+    }
+    e.radiance = radiance->vec3(limits::radiance);
+    return e;
+  }
+  const Node file = o.require("file");
+  const std::string path = resolved(directory, file.string());
+  try {
+    EnvironmentFile read = read_environment_file(path);
+    e.image = std::move(read.image);
+    hash = std::move(read.content_hash);
+  } catch (const InputError& error) {
+    file.fail(error.what());
+  }
+  const double factor = scale ? scale->number(limits::factor) : 1;
+  const auto largest = static_cast<double>(*std::max_element(e.image->values.begin(), e.image->values.end()));
+  if (largest * factor > limits::radiance.most) {
+    (scale ? *scale : file)
+        .fail(fmt::format("radiance {} W/m^2/sr where the image's value is {}, expected at most {} W/m^2/sr", largest * factor,
+                          largest, limits::radiance.most));
+  }
+  e.radiance = glm::dvec3(factor);
+  if (rotation) e.rotation = rotation->number(limits::degrees);
+  return e;
+}
+
+// The type says which keys there are, so it is looked at first.
+std::string parse_type(const Node& node) {
   static constexpr auto any = keys("type", "name", "position", "intensity", "radius", "direction", "irradiance", "file", "scale",
                                    "rotation", "radiance", "inner_angle", "outer_angle");
   static constexpr auto types = keys("point", "directional", "environment", "spot");
   const Node type_node = Object(node, any).require("type");
-  const std::string type = type_node.choice(types);
-  if (type == "environment")
-    type_node.fail("environment lights are not supported by this version, expected point or directional");
-  if (type == "spot") type_node.fail("spot lights are not supported by this version, expected point or directional");
-  return type == "point" ? parse_point(node) : parse_directional(node);
+  std::string type = type_node.choice(types);
+  if (type == "spot") {
+    type_node.fail("spot lights are not supported by this version, expected point, directional or environment");
+  }
+  return type;
 }
 
 }  // namespace
 
-std::vector<LightSource> parse_lights(const Node& node) {
-  std::vector<LightSource> lights;
+void parse_lights(const Node& node, const std::string& directory, Loading& loading) {
+  Scene& scene = loading.scene;
   for (const Node& n : node.array()) {
-    LightSource light = parse_light(n);
-    for (const json::Value& member : n.value().items) {
-      if (member.key == "name") light.name = parse_name(Node(member, n.file(), n.path() + ".name"), lights);
+    const std::string type = parse_type(n);
+    if (type == "environment") {
+      if (scene.environment) n.fail("a second environment light, expected one at most");
+      scene.environment = parse_environment(n, directory, loading.environment_hash);
+      continue;
     }
-    lights.push_back(std::move(light));
+    LightSource light = type == "point" ? parse_point(n) : parse_directional(n);
+    for (const json::Value& member : n.value().items) {
+      if (member.key == "name") light.name = parse_name(Node(member, n.file(), n.path() + ".name"), scene.lights);
+    }
+    scene.lights.push_back(std::move(light));
   }
-  return lights;
 }
 
 }  // namespace airlight

@@ -79,6 +79,15 @@ struct LightSource {
   double radius = 1e-3;            // [m] > 0: 1/r^2 is held below it
 };
 
+// Light from everywhere, as far away as nothing else: of an image of latitude and longitude (top row +Y, centre -Z, columns
+// toward +X, linear between the centres of pixels), or the same from all directions. As it arrives through the homogeneous part
+// of the medium.
+struct Environment {
+  std::shared_ptr<const HostImage> image;  // three channels, twice as wide as high, at least 4 x 2; finite, not negative
+  glm::dvec3 radiance{1, 1, 1};            // [W/m^2/sr] without an image; else what multiplies it
+  double rotation = 0;                     // [degree] about +Y
+};
+
 // Vertices in the mesh's own frame. Normals are unit length, one a vertex (loading generates what a file lacks).
 struct Mesh {
   std::vector<glm::vec3> positions;
@@ -100,6 +109,7 @@ struct Scene {
   std::vector<LightSource> lights;
   std::vector<Surface> surfaces;
   glm::dvec3 background{0, 0, 0};  // [W/m^2/sr]
+  std::optional<Environment> environment;
 
   // What the file asks for; the command line wins.
   std::string technique;                                      // empty: not said

@@ -74,6 +74,11 @@ std::string scene_hash(const Loading& loading) {
     c.add("power", l.power);
     c.add("radius", l.radius);
   }
+  if (s.environment) {
+    c.line("environment", loading.environment_hash);
+    c.add("radiance", s.environment->radiance);
+    c.add("rotation", s.environment->rotation);
+  }
   for (std::size_t i = 0; i < s.surfaces.size(); ++i) {
     const Surface& surface = s.surfaces[i];
     c.line("mesh", loading.surfaces[i].content_hash);

@@ -1,11 +1,26 @@
 #include "common/techniques/choose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "common/error.h"
 
 namespace airlight {
+
+// What the environment's light adds to an error (tests/truth/environment.cpp): harmonics leave little of matt surfaces and of
+// fog. Narrow lobes and other media are not promised.
+static double environment_error(const Scene& scene) {
+  if (!scene.environment) return 0;
+  if (!scene.medium.gaussians.empty() || scene.medium.grid) return std::numeric_limits<double>::infinity();
+  double error = scene.medium.extinction > 0 ? 0.015 : 0.002;
+  for (const Surface& s : scene.surfaces) {
+    if (s.material.specular == glm::vec3(0)) continue;
+    error = std::max(error, s.material.shininess > 40 ? std::numeric_limits<double>::infinity() : 0.03);
+  }
+  return error;
+}
 
 std::vector<Settings> products(std::span<const Knob> knobs, bool baselines) {
   std::vector<Settings> all{{}};
@@ -52,7 +67,8 @@ Choice choose(const Scene& scene, Extent extent, const Goal& goal, std::string_v
     for (const Settings& settings : products(t.knobs)) {
       Settings all = t.name == scene.technique ? scene.settings : Settings();  // they hold where the goal has none
       all.insert(all.end(), settings.begin(), settings.end());
-      const Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, all), threads);
+      Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, all), threads);
+      e.error += environment_error(scene);
       if (!std::isfinite(e.error)) continue;
       known = true;
       if (nearest.technique.empty() || missed(e) < missed(nearest.estimate)) nearest = {std::string(t.name), settings, e};

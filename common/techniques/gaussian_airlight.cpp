@@ -225,7 +225,8 @@ Technique gaussian_airlight() {
       table_nodes_knob(),
       shadows_knob(),
       airlight_resolution_knob(),
-      indirect_knob()};
+      indirect_knob(),
+      environment_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

@@ -18,7 +18,8 @@ namespace {
 std::optional<std::string> refuses(const Scene& scene) {
   if (scene.medium.gaussians.empty() && !scene.medium.grid)
     return "its particles stand for Gaussians and grids, the scene has neither";
-  return refuses_noise(scene);
+  if (auto why = refuses_noise(scene)) return why;
+  return refuses_environment(scene);
 }
 
 int window_of(int particles) {
@@ -257,7 +258,8 @@ Technique illumination_network() {
               .sweep = {}},
              shadows_knob(),
              airlight_resolution_knob(),
-             indirect_knob()};
+             indirect_knob(),
+             environment_knob()};
   t.multiple_scattering = true;
   t.refuses = refuses;
   t.plan = plan;

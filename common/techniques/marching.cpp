@@ -120,8 +120,12 @@ Technique marching() {
               .sweep = {"analytic", "march"}},
              shadows_knob(),
              airlight_resolution_knob(),
-             indirect_knob()};
-  t.refuses = refuses_noise;
+             indirect_knob(),
+             environment_knob()};
+  t.refuses = [](const Scene& scene) {
+    const auto why = refuses_noise(scene);
+    return why ? why : refuses_environment(scene);
+  };
   t.plan = plan;
   t.estimate = estimate;
   return t;

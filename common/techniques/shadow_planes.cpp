@@ -113,7 +113,8 @@ Technique shadow_planes() {
                   "wrong where they interleave",
        .sweep = {},
        .baselines = {"published"}},
-      indirect_knob()};
+      indirect_knob(),
+      environment_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

@@ -96,6 +96,7 @@ const Technique& technique(std::string_view name) {
 std::vector<std::string> image_names(const Scene& scene) {
   std::vector<std::string> names{"beauty",        "surface",  "surface.direct", "surface.indirect", "surface.ambient",
                                  "transmittance", "airlight", "depth",          "normal",           "optical_depth"};
+  if (scene.environment) names.push_back("surface.environment");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) names.push_back(light_image_name(scene, i));
   return names;
 }

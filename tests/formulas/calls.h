@@ -22,6 +22,50 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
   return weighted_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
 }
 
+FORMULA void call_harmonics(int formula, table t, int kind, INPUTS, RESULTS) {
+  if (formula == 71) r[0] = sh_value(t, kind, a[0], a[1], a[2]);
+  if (formula == 75) {
+    r[0] = sh_delta(kind);
+    r[1] = sh_zonal_factor(kind);
+    r[2] = sh_lobe_factor(kind, a[0]);
+  }
+  if (formula == 74) {
+    real f[36];
+    real g[36];
+    real h[36];
+    sh_basis(kind, a[0], a[1], a[2], f);
+    sh_basis(kind, a[3], a[4], a[5], g);
+    sh_basis(kind, a[6], a[7], a[8], h);
+    r[0] = sh_triple_product(t, f, g, h);
+  }
+  if ((formula == 70) || (formula == 72) || (formula == 73)) {
+    real v[36];
+    if (formula == 70) sh_basis(6, a[0], a[1], a[2], v);
+    if (formula == 72) sh_rotated(t, 6, a[0], a[1], a[2], v);
+    if (formula == 73) {
+      for (int i = 0; i < 36; ++i) v[i] = element(t, 6 + i) * a[0];
+      sh_convolve(t, 6, v);
+    }
+    for (int k = 0; k < 3; ++k) r[k] = v[3 * kind + k];
+  }
+}
+
+FORMULA void call_environment(int formula, table t, int kind, INPUTS, RESULTS) {
+  if (formula == 76) r[0] = average_gaussian_depth(a[0]);
+  if (formula == 77) {
+    real turns;
+    real polar;
+    environment_place(a[0], a[1], a[2], turns, polar);
+    r[0] = environment_value(t, kind, turns, polar);
+  }
+  if (formula == 78) r[0] = environment_share(t, a[0]);
+  if (formula == 80) {
+    environment_scattered(a[0], a[1], r[0], r[1]);
+    r[2] = environment_scattered_published(a[0]);
+  }
+  if (formula == 79) environment_reflection(t, a[0], a[1], a[2], r[0], r[1], r[2]);
+}
+
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
   if (formula == 0) r[0] = exp_(a[0]);
   if (formula == 48) r[0] = exp2_(a[0]);
@@ -110,5 +154,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 63) r[0] = weighted_mean(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]);
   if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
   if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
+  if ((formula >= 70) && (formula < 76)) call_harmonics(formula, t, kind, a, r);
+  if (formula >= 76) call_environment(formula, t, kind, a, r);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

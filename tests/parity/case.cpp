@@ -10,6 +10,7 @@ std::vector<NamedCase> all_cases() {
                           shadow_planes_cases(),
                           view_transmittance_cases(),
                           surface_airlight_cases(),
+                          environment_light_cases(),
                           surface_shading_cases(),
                           homogeneous_airlight_cases(),
                           density_injection_cases(),
@@ -25,6 +26,7 @@ std::vector<NamedCase> all_cases() {
                           subsample_cases(),
                           depth_aware_upsample_cases(),
                           fill_airlight_cases(),
+                          environment_airlight_cases(),
                           compose_cases(),
                           frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());

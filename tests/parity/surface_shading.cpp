@@ -4,7 +4,8 @@ namespace airlight {
 
 namespace {
 
-Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> materials, bool light_transmittance) {
+Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> materials, bool light_transmittance,
+             bool with_environment = false) {
   Case c;
   const View view = test_view(extent);
   TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -19,6 +20,13 @@ Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> mat
     c.images.emplace_back(image, std::move(values));
     return image;
   };
+  Image environment;
+  if (with_environment) {
+    environment = {{9}, Format::rgb32f, extent, 1, false};
+    std::vector<float> values(environment.floats());
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(uniform(9, i));
+    c.images.emplace_back(environment, std::move(values));
+  }
   const Image surface{{6}, Format::rgb32f, extent, 1, true}, direct{{7}, Format::rgb32f, extent, 1, true},
       ambient{{8}, Format::rgb32f, extent, 1, true};
   c.steps = {
@@ -28,6 +36,7 @@ Case shading(Extent extent, std::vector<Light> lights, std::vector<Material> mat
                       .transmittance = random_image(4, 1),
                       .light_transmittance = light_transmittance ? random_image(5, static_cast<int>(lights.size())) : Image{},
                       .indirect = {},
+                      .environment = environment,
                       .materials = materials,
                       .lights = lights,
                       .view = view,
@@ -49,6 +58,7 @@ Case mirror_like(Extent e) {
   materials[1].shininess = 1000;
   return shading(e, test_lights(), materials, false);
 }
+Case under_the_sky(Extent e) { return shading(e, {test_lights()[0]}, test_materials(), false, true); }
 Case dark(Extent e) { return shading(e, {}, test_materials(), false); }
 
 }  // namespace
@@ -57,6 +67,7 @@ std::span<const NamedCase> surface_shading_cases() {
   static constexpr NamedCase cases[] = {{"surface_shading/three_lights_two_materials", all_lights},
                                         {"surface_shading/one_lamp", one_lamp},
                                         {"surface_shading/shininess_1000", mirror_like},
+                                        {"surface_shading/with_environment", under_the_sky},
                                         {"surface_shading/no_light", dark}};
   return cases;
 }

@@ -156,10 +156,11 @@ TEST_P(Extremes, GiveFiniteNumbersWhenMarched) {
   expect_finite(GetParam(), extreme_medium, settings);
 }
 
-// The same without the grid.
+// The same without the grid, half of them in an environment.
 Scene extreme_gaussians(std::uint32_t seed) {
   Scene s = extreme_medium(seed);
   s.medium.grid.reset();
+  if (seed % 2 == 0) s.environment = Environment{nullptr, {seed % 4 == 0 ? 1e12 : 1.0, 1e-12, 0}, 30};
   return s;
 }
 

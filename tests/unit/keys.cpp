@@ -30,6 +30,7 @@ struct Chain {  // a: distance -> transmittance; b: with the surface -> beauty
                             .transmittance = transmittance,
                             .light_transmittance = {},
                             .indirect = {},
+                            .environment = {},
                             .materials = {},
                             .lights = {},
                             .view = {},

@@ -21,6 +21,8 @@ std::vector<Check> all_checks() {
   add_network_checks(checks);
   add_upsample_checks(checks);
   add_noise_checks(checks);
+  add_spherical_harmonics_checks(checks);
+  add_environment_checks(checks);
   return checks;
 }
 

@@ -70,13 +70,24 @@ enum class Formula : int {
   link_shares = 45,         // depth, all -> lost, given, kept
   surface_airlight = 47,    // lambda, s -> of a point light, of a directional one; the table is one of surface_airlight_tables()
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
-  exp2 = 48,                 // x
+  exp2 = 48,                // x
   upsampled = 60,           // four samples, four bends, u, v -> value, what bends of that size add at most
   bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0) -> bend, size
   depth_fit = 62,           // inverse distance, of the sample, tolerance
   weighted_mean = 63,       // four samples, four weights
   gradient_noise = 64,      // place -> three noises
   bent_ray = 65,            // d, centre, radius, amplitude, inverse scale, offset -> direction
+  sh_basis = 70,            // direction -> three coefficients from three times the phase's kind on
+  sh_value = 71,            // direction; the table: coefficients; the phase's kind is the order
+  sh_rotated = 72,          // axis; the table: coefficients about z -> as sh_basis
+  sh_convolve = 73,         // factor; the table: six coefficients about z, then those of a function -> as sh_basis
+  sh_triple_product = 74,   // three directions; the table: products; the phase's kind is the order
+  sh_bands = 75,            // exponent -> peak, convolution, lobe; the phase's kind is the band
+  average_gaussian_depth = 76,  // squared distance
+  environment_value = 77,       // direction; the table: an image; the phase's kind is the channel
+  environment_share = 78,       // cosine; the table: of a lobe
+  environment_reflection = 79,  // direction; the table: of a lobe -> red, green, blue
+  environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -131,6 +142,8 @@ void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
 void add_upsample_checks(std::vector<Check>&);
 void add_noise_checks(std::vector<Check>&);
+void add_spherical_harmonics_checks(std::vector<Check>&);
+void add_environment_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 void add_surface_airlight_checks(std::vector<Check>&);
 

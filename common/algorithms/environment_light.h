@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "common/algorithms/field.h"
+#include "common/algorithms/medium.h"
+#include "common/algorithms/view.h"
+
+namespace airlight {
+
+// The tables: for Lambert's lobe, then for each of shininess_of(materials), environment_share()'s table and
+// environment_reflection()'s; then the image, environment_value()'s.
+constexpr std::size_t environment_share_floats = 66, environment_lobe_floats = environment_share_floats + std::size_t{3} * 36;
+constexpr std::size_t environment_image_at(std::size_t shininess) { return (1 + shininess) * environment_lobe_floats; }
+
+// Light of an environment as it reaches the camera: seen where no surface is hit, and reflected by surfaces. These take it from
+// spherical harmonics of order 6 (Zhou et al. 2007, 4.2, eq. 26-27 without what is scattered on the way): attenuated by the mean
+// optical depth of the Gaussians over all directions, in front of nothing but the surface's own horizon.
+struct EnvironmentLight {
+  Image distance, normal, material, transmittance;  // as in SurfaceShading
+  Buffer tables;                                    // common/plan/environment.h makes them
+  std::vector<Material> materials;
+  std::vector<GaussianDensity> gaussians;  // whatever their reach
+  View view;
+
+  Image environment;  // rgb32f [W/m^2/sr]
+
+  static constexpr std::string_view name = "environment_light";
+  static constexpr Domain domain = Domain::pixel;
+  template <class Self, class Visit>
+  static void fields(Self& s, Visit&& v) {
+    v(in("distance", "m"), s.distance);
+    v(in("normal"), s.normal);
+    v(in("material"), s.material);
+    v(in("transmittance"), s.transmittance);
+    v(in("tables"), s.tables);
+    v(knob("materials"), s.materials);
+    v(knob("gaussians"), s.gaussians);
+    v(knob("view"), s.view);
+    v(out("environment", "W/m^2/sr"), s.environment);
+  }
+};
+
+}  // namespace airlight

@@ -1,0 +1,30 @@
+// The environment's light as the kernels take it (common/formulas/environment.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/algorithms/environment_light.h"
+#include "common/plan/zonal.h"
+#include "common/scene/scene.h"
+
+namespace airlight {
+
+// Coefficients of red, green and blue [W/m^2/sr], of order 6, about +Y as their axis, azimuths from -Z toward +X.
+using EnvironmentHarmonics = std::array<std::array<double, 36>, 3>;
+
+// The projection of the radiance that environment_value() gives onto the harmonics.
+EnvironmentHarmonics environment_harmonics(const Environment&);
+
+// The table of EnvironmentLight.
+std::vector<float> environment_table(const Environment&, std::span<const float> shininess);
+
+// The table of EnvironmentAirlight: the environment convolved with a function of the angle between ways before and after.
+std::vector<float> environment_airlight_table(const Environment&, const Zonal&);
+
+// Of everything that the table depends on.
+std::uint64_t environment_key(const Environment&, std::span<const float> shininess);
+
+}  // namespace airlight
