@@ -74,7 +74,7 @@ TEST(Sweep, ThePublishedOrderIsMeasuredWhereShadowsAreThrown) {
 TEST(Sweep, ThePublishedAirlightIsMeasuredWhereItRenders) {
   Scene scene = foggy();
   scene.medium.extinction = 0;
-  scene.medium.gaussians.emplace_back();
+  scene.medium.gaussians.push_back({.center = {0, 0, -30}});  // a lamp within would keep all of its reach
   const auto published = [&](std::vector<std::string>& refused) {
     int count = 0;
     for (const Configuration& c : configurations(scene, {32, 24}, {"gaussian-airlight"}, {"cpu"}, refused))
