@@ -14,8 +14,8 @@ namespace airlight {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;  // knob, value
 
-// Products of the knobs' sweeps, the first knob slowest; knobs without a sweep are left at their standard. With `baselines` a knob
-// has these, too, beside its sweep or its standard.
+// Products of the knobs' sweeps, the first knob slowest; knobs without a sweep are left at their standard. With `baselines` a
+// knob has these, too, beside its sweep or its standard.
 std::vector<Settings> products(std::span<const Knob>, bool baselines = false);
 
 struct Choice {
