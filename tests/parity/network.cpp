@@ -9,6 +9,20 @@
 
 namespace airlight {
 
+Scene two_gaussians(double albedo) {
+  Scene scene;
+  scene.camera.position = {0, 0, 4};
+  for (const double x : {-0.5, 0.8}) {
+    Gaussian g;
+    g.center = {x, 0.2 * x, 0};
+    g.radius = x < 0 ? 0.7 : 0.5;
+    g.extinction = x < 0 ? 2 : 5;
+    g.albedo = glm::dvec3(albedo);
+    scene.medium.gaussians.push_back(g);
+  }
+  return scene;
+}
+
 std::vector<LightSource> network_lights() {
   LightSource lamp, sun;
   lamp.position = {0.4, 0.3, -5};

@@ -22,6 +22,8 @@ struct NetworkParts {
 
 // All four steps for the scene's medium under these lights; their inputs become buffers 1 to 3 of the case, their outputs 4 to 8.
 TestNetwork test_network(Case&, const Scene&, const std::vector<LightSource>&, const NetworkParts&);
+// Two Gaussians of that albedo, unlike in radius and extinction.
+Scene two_gaussians(double albedo);
 // A point light in the medium of test_gaussian_scene() and a directional one.
 std::vector<LightSource> network_lights();
 

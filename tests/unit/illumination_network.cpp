@@ -8,9 +8,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "app/airlight.h"
 #include "common/plan/network.h"
-#include "common/techniques/technique.h"
 #include "cpu/backend.h"
 #include "tests/parity/network.h"
 #include "tests/tolerances.h"
@@ -78,20 +76,6 @@ class Ran {
   Case case_;
   CpuBackend backend_{CpuOptions{.threads = 2}};
 };
-
-Scene two_gaussians(double albedo) {
-  Scene scene;
-  scene.camera.position = {0, 0, 4};
-  for (const double x : {-0.5, 0.8}) {
-    Gaussian g;
-    g.center = {x, 0.2 * x, 0};
-    g.radius = x < 0 ? 0.7 : 0.5;
-    g.extinction = x < 0 ? 2 : 5;
-    g.albedo = glm::dvec3(albedo);
-    scene.medium.gaussians.push_back(g);
-  }
-  return scene;
-}
 
 // n equations, by elimination.
 std::vector<double> solve(std::vector<std::vector<double>> m, std::vector<double> right) {
@@ -353,53 +337,6 @@ TEST(IlluminationNetwork, ParticlesFollowTheDensity) {
   }
   std::printf("moments off by %g\n", error);
   EXPECT_LE(error, tolerance("network_moments"));
-}
-
-// Of a warm frame only what changed is made again: the camera moves, the lights change, then the medium.
-TEST(IlluminationNetwork, OnlyWhatChangedIsMadeAgain) {
-  Scene scene = two_gaussians(0.8);
-  scene.camera.resolution = {24, 18};
-  scene.lights = network_lights();
-  RenderSettings settings;
-  settings.technique = "illumination-network";
-  settings.knobs = {{"particles", "200"}, {"directions", "20"}, {"resolution", "8"}, {"steps", "8"}};
-  Renderer warm({.backend = "cpu"});
-  const auto ran = [&] {
-    const Frame frame = warm.render(scene, settings);
-    Renderer cold({.backend = "cpu"});
-    EXPECT_EQ(frame.image("beauty").values, cold.render(scene, settings).image("beauty").values);
-    std::string names;
-    for (const StepStats& step : frame.stats.steps) {
-      const bool of_network = step.name == "visibility_network" || step.name == "particle_light" ||
-                              step.name == "network_iteration" || step.name == "source_function";
-      if (of_network && !step.reused) names += step.name + " ";
-      if (step.name != "network_iteration") continue;
-      EXPECT_EQ(step.residuals.empty(), step.reused);
-      if (!step.residuals.empty()) {
-        EXPECT_LE(step.residuals.back(), 5e-4F);
-      }
-    }
-    return names;
-  };
-  EXPECT_EQ(ran(), "visibility_network particle_light network_iteration source_function ");
-  scene.camera.position.z += 0.5;
-  EXPECT_EQ(ran(), "");
-  scene.lights[0].power *= 2;
-  EXPECT_EQ(ran(), "particle_light network_iteration source_function ");
-  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.3};
-  EXPECT_EQ(ran(), "particle_light network_iteration source_function ");
-  scene.camera.position.x += 0.5;
-  EXPECT_EQ(ran(), "source_function ");
-  scene.medium.gaussians[1].extinction *= 2;
-  EXPECT_EQ(ran(), "visibility_network particle_light network_iteration source_function ");
-}
-
-TEST(IlluminationNetwork, RefusesWhatHasNoParticles) {
-  Scene fog;
-  fog.medium.extinction = 0.1;
-  const auto why = technique("illumination-network").refuses(fog);
-  ASSERT_TRUE(why);
-  EXPECT_NE(why->find("neither"), std::string::npos) << *why;
 }
 
 }  // namespace
