@@ -122,38 +122,64 @@ HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, r
   } while (!hn::AllFalse(di, waiting));
   return result;
 }
-// The value between eight neighbouring elements of a box, as common/formulas/README.md tells. Neighbouring pixels mostly lie in
-// the same few cells: each is read once for all lanes that lie in it, until one serves too few; the others are gathered.
+// The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
 HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
-  const Ints di;
   const IntVec width = to_int(nx), layer_size = hn::Mul(width, to_int(ny));
   const IntVec index = hn::Add(to_int(x), hn::Add(hn::Mul(width, to_int(y)), hn::Mul(layer_size, to_int(z))));
-  HWY_ALIGN std::int32_t where[lanes], sizes[lanes], layers[lanes];
-  hn::Store(index, di, where);
-  hn::Store(width, di, sizes);
-  hn::Store(layer_size, di, layers);
   const auto between = [](Real a, Real b, Real weight) HWY_ATTR { return fma(weight, b - a, a); };
+#if HWY_TARGET == HWY_SCALAR
+  const auto row = [&](const float* q) { return between(q[0], q[1], u); };
+  const auto layer = [&](const float* q) { return between(row(q), row(q + hn::GetLane(width)), v); };
+  const float* p = t + hn::GetLane(index);
+  return between(layer(p), layer(p + hn::GetLane(layer_size)), w);
+#else
+  const Ints di;
+  // Neighbouring pixels mostly lie in a few rows of cells: a vector from each row serves all lanes that lie in it, until one
+  // serves too few; the others are gathered.
+  HWY_ALIGN std::int32_t where[lanes];
+  hn::Store(index, di, where);
+  const std::int32_t next_row = hn::GetLane(width), next_layer = hn::GetLane(layer_size);
   Real result = 0.0;
   auto waiting = hn::Eq(index, index);
   for (bool few = false; !few;) {
-    const std::int32_t first = where[hn::FindFirstTrue(di, waiting)];
-    const auto here = hn::Eq(index, hn::Set(di, first));
-    few = hn::CountTrue(di, here) * 5 < lanes;
+    // What lies between two lanes' cells is there to be read.
+    const std::int32_t first = where[hn::FindFirstTrue(di, waiting)], last = where[lanes - 1];
+    const std::int32_t begin = first <= last ? first : HWY_MAX(last, first - (lanes - 2));
+    const std::int32_t read = HWY_MIN(HWY_MAX(first, last) - begin + 2, lanes);
+    const IntVec offset = hn::Sub(index, hn::Set(di, begin));
+    const auto here = hn::And(hn::Gt(offset, hn::Set(di, -1)), hn::Lt(offset, hn::Set(di, read - 1)));
+    few = hn::CountTrue(di, hn::And(here, waiting)) * 5 < lanes;
     if (few) break;
-    const float* p = t + first;
-    const auto row = [&](const float* q) HWY_ATTR { return fma(u, Real(q[1] - q[0]), Real(q[0])); };
-    const Real near_layer = between(row(p), row(p + sizes[0]), v);
-    p += layers[0];
-    const Real value = between(near_layer, between(row(p), row(p + sizes[0]), v), w);
+    const IntVec inside = hn::And(offset, hn::Set(di, lanes - 1));
+    const auto left = hn::IndicesFromVec(Floats(), inside);
+    const auto right = hn::IndicesFromVec(Floats(), hn::And(hn::Add(inside, hn::Set(di, 1)), hn::Set(di, lanes - 1)));
+    const auto readable = hn::FirstN(Floats(), static_cast<std::size_t>(read));
+    const auto row = [&](const float* q) HWY_ATTR {
+      const Vec cells = hn::MaskedLoad(readable, Floats(), q);
+      return between(Real(hn::TableLookupLanes(cells, left)), Real(hn::TableLookupLanes(cells, right)), u);
+    };
+    const auto layer = [&](const float* q) HWY_ATTR { return between(row(q), row(q + next_row), v); };
+    const float* p = t + begin;
+    const Real value = between(layer(p), layer(p + next_layer), w);
     result = hn::IfThenElse(hn::RebindMask(Floats(), here), value.v, result.v);
     waiting = hn::AndNot(here, waiting);
     if (hn::AllFalse(di, waiting)) return result;
   }
-  const auto at = [&](IntVec i) HWY_ATTR { return Real(hn::GatherIndex(Floats(), t, i)); };
-  const auto row = [&](IntVec i) HWY_ATTR { return between(at(i), at(hn::Add(i, hn::Set(di, 1))), u); };
+  // Both ends of a row by one load: a gather costs by the element.
+  const hn::RepartitionToWide<Ints> pairs;
+  const hn::Rebind<std::int32_t, decltype(pairs)> half;
+  const auto* from = reinterpret_cast<const std::int64_t*>(t);
+  const auto row = [&](IntVec i) HWY_ATTR {
+    const IntVec bytes = hn::ShiftLeft<2>(i);
+    const auto low = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::LowerHalf(half, bytes)));
+    const auto high = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::UpperHalf(half, bytes)));
+    const Vec a = hn::BitCast(Floats(), low), b = hn::BitCast(Floats(), high);
+    return between(Real(hn::ConcatEven(Floats(), b, a)), Real(hn::ConcatOdd(Floats(), b, a)), u);
+  };
   const auto layer = [&](IntVec i) HWY_ATTR { return between(row(i), row(hn::Add(i, width)), v); };
   const Real gathered = between(layer(index), layer(hn::Add(index, layer_size)), w);
   return hn::IfThenElse(hn::RebindMask(Floats(), waiting), gathered.v, result.v);
+#endif
 }
 
 #include "common/formulas/elementary.h"
