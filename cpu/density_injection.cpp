@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/plan/voxels.h"
+#include "common/algorithms/voxel_table.h"
 #include "cpu/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

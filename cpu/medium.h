@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "common/algorithms/medium.h"
-#include "common/plan/voxels.h"
+#include "common/algorithms/voxel_table.h"
 #include "cpu/depth_volume.h"
 
 HWY_BEFORE_NAMESPACE();

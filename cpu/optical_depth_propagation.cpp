@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/plan/voxels.h"
+#include "common/algorithms/voxel_table.h"
 #include "cpu/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/plan/voxels.h"
+#include "common/algorithms/voxel_table.h"
 #include "gpu/medium.h"
 
 namespace airlight {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <glm/vec4.hpp>
 
+#include "common/algorithms/voxel_table.h"
 #include "common/error.h"
-#include "common/plan/voxels.h"
 
 namespace airlight {
 

@@ -15,7 +15,7 @@ namespace airlight {
 // leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is empty costs nothing.
 struct RayMarch {
   Image distance;              // r32f [m], 1e30 on a miss
-  Buffer voxels;               // extinctions of the grid (common/plan/voxels.h); with a grid
+  Buffer voxels;               // extinctions of the grid (common/algorithms/voxel_table.h); with a grid
   Buffer volumes;              // as ShadowPlanes'; optional: without, nothing throws a shadow
   std::vector<Buffer> depths;  // one a light, as OpticalDepthPropagation's; with LightDepth::volume
   Buffer sources;  // as SourceFunction's; optional: what there is besides for Gaussians and grid to scatter toward the camera

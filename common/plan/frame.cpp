@@ -7,6 +7,7 @@
 #include "common/plan/airlight_tables.h"
 #include "common/plan/frame_ids.h"
 #include "common/plan/hash.h"
+#include "common/plan/image_names.h"
 #include "common/plan/shadow_volumes.h"
 #include "common/plan/surface_airlight_tables.h"
 #include "common/plan/upload.h"

@@ -12,8 +12,8 @@
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/geometry.h"
+#include "common/plan/plan.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/algorithms/view.h"
+#include "common/plan/plan.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "common/algorithms/voxel_table.h"
 #include "common/error.h"
-#include "common/plan/voxels.h"
 
 namespace airlight {
 

@@ -8,8 +8,8 @@
 
 #include "common/algorithms/network.h"
 #include "common/plan/depth_volumes.h"
+#include "common/plan/plan.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 

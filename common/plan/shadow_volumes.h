@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "common/algorithms/shadow_planes.h"
+#include "common/plan/plan.h"
 #include "common/plan/silhouette.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/techniques/technique.h"
+#include "common/plan/plan.h"
 
 namespace airlight {
 

@@ -10,8 +10,6 @@ namespace airlight {
 
 namespace {
 
-constexpr std::size_t brick_side = 4;  // as in grid_bound()
-
 struct Size {
   std::size_t x, y, z;
   std::size_t count() const { return x * y * z; }
@@ -22,9 +20,10 @@ Size in_ring(const glm::ivec3& cells) {
   return {static_cast<std::size_t>(cells.x) + 2, static_cast<std::size_t>(cells.y) + 2, static_cast<std::size_t>(cells.z) + 2};
 }
 
-// Lookups begin at every cell of the ring but the last.
-std::size_t bricks_of_ring(std::size_t n) { return (n - 1 + brick_side - 1) / brick_side; }
-Size bricks_of(const Size& ring) { return {bricks_of_ring(ring.x), bricks_of_ring(ring.y), bricks_of_ring(ring.z)}; }
+Size bricks_of(const glm::ivec3& cells) {
+  const auto an_axis = [](int n) { return static_cast<std::size_t>(bricks_an_axis(n)); };
+  return {an_axis(cells.x), an_axis(cells.y), an_axis(cells.z)};
+}
 
 void add_size(std::vector<float>& table, std::size_t x, std::size_t y, std::size_t z) {
   for (const std::size_t n : {x, y, z}) table.push_back(static_cast<float>(n));
@@ -33,9 +32,10 @@ void add_size(std::vector<float>& table, std::size_t x, std::size_t y, std::size
 }  // namespace
 
 std::vector<float> voxel_table(const GridMedium& grid) {
-  const Size ring = in_ring(grid.voxels->size), bricks = bricks_of(ring);
+  const Size ring = in_ring(grid.voxels->size), bricks = bricks_of(grid.voxels->size);
+  constexpr std::size_t side = brick_side;
   std::vector<float> table;
-  table.reserve(6 + ring.count() + bricks.count());
+  table.reserve(voxel_table_floats(grid.voxels->size));
   add_size(table, ring.x - 2, ring.y - 2, ring.z - 2);
   std::vector<float> bounds(bricks.count(), 0.0F);
   auto next = grid.voxels->values.begin();
@@ -47,9 +47,9 @@ std::vector<float> voxel_table(const GridMedium& grid) {
         table.push_back(value);
         if (!(value > 0)) continue;
         // A lookup that begins one cell before meets it too.
-        for (std::size_t c = (k - 1) / brick_side; c <= k / brick_side; ++c) {
-          for (std::size_t b = (j - 1) / brick_side; b <= j / brick_side; ++b) {
-            for (std::size_t a = (i - 1) / brick_side; a <= i / brick_side; ++a) {
+        for (std::size_t c = (k - 1) / side; c <= k / side; ++c) {
+          for (std::size_t b = (j - 1) / side; b <= j / side; ++b) {
+            for (std::size_t a = (i - 1) / side; a <= i / side; ++a) {
               if (a >= bricks.x || b >= bricks.y || c >= bricks.z) continue;
               float& bound = bounds[bricks.at(a, b, c)];
               bound = std::max(bound, value);
@@ -62,15 +62,6 @@ std::vector<float> voxel_table(const GridMedium& grid) {
   add_size(table, bricks.x, bricks.y, bricks.z);
   table.insert(table.end(), bounds.begin(), bounds.end());
   return table;
-}
-
-std::size_t bricks_at(const GridDensity& grid) { return 3 + in_ring(glm::ivec3(grid.size)).count(); }
-
-int bricks_an_axis(int cells) { return static_cast<int>(bricks_of_ring(static_cast<std::size_t>(cells) + 2)); }
-
-std::size_t voxel_table_floats(const glm::ivec3& cells) {
-  const Size ring = in_ring(cells);
-  return 6 + ring.count() + bricks_of(ring).count();
 }
 
 GridDensity grid_density(const GridMedium& grid, const glm::dvec3& camera) {

@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "common/algorithms/medium.h"
+#include "common/algorithms/voxel_table.h"
+#include "common/plan/plan.h"
 #include "common/scene/scene.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 
-// The table of grid_extinction() in common/formulas/grid.h, in 1/m, and behind it, from bricks_at() on, that of grid_bound().
+// In 1/m, as common/algorithms/voxel_table.h lays them out.
 std::vector<float> voxel_table(const GridMedium&);
-std::size_t bricks_at(const GridDensity&);
-int bricks_an_axis(int cells);
-// [float] of the whole table.
-std::size_t voxel_table_floats(const glm::ivec3& cells);
 
 // Where the grid stands, seen from the camera.
 GridDensity grid_density(const GridMedium&, const glm::dvec3& camera);

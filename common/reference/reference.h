@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/plan/image_names.h"
+#include "common/plan/plan.h"
 #include "common/progress.h"
 #include "common/reference/pixel.h"
 #include "common/scene/scene.h"
 #include "common/stats.h"
-#include "common/techniques/technique.h"
 
 namespace airlight {
 

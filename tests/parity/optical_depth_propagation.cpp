@@ -1,3 +1,4 @@
+#include "common/algorithms/voxel_table.h"
 #include "common/plan/depth_volumes.h"
 #include "common/plan/geometry.h"
 #include "common/plan/voxels.h"

@@ -1,0 +1,44 @@
+// What a technique makes of a scene: a list of steps that any backend can run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/algorithms/algorithm.h"
+#include "common/plan/knobs.h"
+
+namespace airlight {
+
+// One pass over the image: extent, sub-pixel shift, and the images wanted.
+struct FrameRequest {
+  Extent extent;
+  glm::dvec2 offset{0, 0};       // [pixel] of the sample from the pixel centre
+  std::set<std::string> images;  // names as in aov_names(), "beauty" among them where wanted
+  KnobValues knobs;
+};
+
+struct Plan {
+  struct Upload {
+    Buffer buffer;
+    std::uint64_t key = 0;                         // names the content
+    std::function<std::vector<std::byte>()> make;  // called only when no backend holds it under this key
+  };
+  struct Skip {
+    std::string what, why;
+  };
+  struct Output {
+    std::string name;
+    Image image;
+    int layer = 0;
+  };
+  std::vector<Upload> uploads;
+  std::vector<Step> steps;
+  std::vector<Skip> skips;
+  std::vector<Output> outputs;  // the wanted images, each kept
+};
+
+}  // namespace airlight
