@@ -32,6 +32,9 @@ struct RendererOptions {
   int threads = 0;                  // 0: as many as the machine has
   std::string gl_context = "auto";  // auto | osmesa | egl; gl only. auto: EGL on hardware where there is some, else OSMesa
   int gl_device = 0;                // which EGL device
+  // Files beside meshes (MESH.DIGITS.transfer) that keep what surfaces hide of an environment are read, and written where they
+  // can be.
+  bool transfer_files = false;
 };
 
 struct RenderSettings {

@@ -108,6 +108,11 @@ void add_render_flags(CLI::App& command, Flags& f) {
       ->check(CLI::Range(-100.0, 100.0))
       ->capture_default_str();
   command.add_option("--tonemap", r.file.tonemap, "clip | reinhard, for tone-mapped files")->capture_default_str();
+  r.renderer.transfer_files = true;
+  command
+      .add_flag("--transfer-files,!--no-transfer-files", r.renderer.transfer_files,
+                "keep what surfaces hide of an environment in files beside the meshes, and read them")
+      ->default_str("true");
   command.add_flag("--stats", r.stats, "print what each step took");
   command.add_option("--stats-json", r.stats_file, "write the same to a file");
   command.add_flag("--explain", r.explain, "print what runs, before it runs");

@@ -37,9 +37,10 @@ std::string quoted(std::string_view text) {
 std::string stats_json(const Frame& frame, const Times& times, const std::string& hash) {
   std::string steps, knobs;
   for (const StepStats& s : frame.stats.steps) {
+    const std::string note = s.note.empty() ? "" : fmt::format(", \"note\": {}", quoted(s.note));
     const std::string residuals = s.residuals.empty() ? "" : fmt::format(", \"residuals\": [{}]", fmt::join(s.residuals, ", "));
-    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {}{} }}", steps.empty() ? "" : ",",
-                         quoted(s.name), s.seconds, s.items, s.reused, residuals);
+    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {}{}{} }}",
+                         steps.empty() ? "" : ",", quoted(s.name), s.seconds, s.items, s.reused, residuals, note);
   }
   for (const auto& [name, value] : frame.knobs)
     knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
@@ -55,7 +56,7 @@ void print_stats(const Frame& frame, const Times& times) {
   for (const StepStats& s : frame.stats.steps) {
     fmt::print("  {:<24} {:>10.3f} ms  {:>10} items{}", s.name, 1e3 * s.seconds, s.items, s.reused ? "  reused" : "");
     if (!s.residuals.empty()) fmt::print("  {} rounds, the last changed {:.2g}", s.residuals.size(), s.residuals.back());
-    fmt::print("\n");
+    fmt::print("{}{}\n", s.note.empty() ? "" : "  ", s.note);
   }
   fmt::print("  {:<24} {:>10.3f} ms\n", "all steps, wall time", 1e3 * frame.stats.seconds);
   fmt::print("load {:.3f} s, render {:.3f} s, write {:.3f} s\n", times.load, times.render, times.write);

@@ -11,6 +11,7 @@
 #include "common/reference/reference.h"
 #include "common/spelling.h"
 #include "common/techniques/choose.h"
+#include "common/transfer/transfer_maker.h"
 #include "cpu/backend.h"
 #include "cpu/tile.h"
 #include "gpu/backend.h"
@@ -143,6 +144,7 @@ Images run_plan(Backend& backend, const Plan& plan, Stats& stats, Progress& prog
 struct Renderer::State {
   RendererOptions options;
   std::unique_ptr<Backend> backend;
+  std::shared_ptr<TransferMaker> transfer;
 
   int threads() const { return threads_of(options); }
 
@@ -161,6 +163,7 @@ std::string_view version() { return AIRLIGHT_VERSION; }
 Renderer::Renderer(const RendererOptions& options) : state_(std::make_unique<State>()) {
   state_->options = options;
   state_->backend = make_backend(options);
+  state_->transfer = std::make_shared<TransferMaker>(threads_of(options), options.transfer_files);
 }
 
 Renderer::~Renderer() = default;
@@ -186,6 +189,10 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
                      state_->options.backend);
   }
 
+  // What was asked before a failure is no part of this frame.
+  state_->transfer->report_to(progress);
+  state_->transfer->take_stats();
+  request.transfer = state_->transfer;
   Frame frame;
   frame.technique = technique.name;
   frame.knobs = request.knobs.all();
@@ -214,6 +221,8 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
       for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] = surface.values[i] + airlight.values[i];
     }
   }
+  const std::vector<StepStats> made = state_->transfer->take_stats();
+  frame.stats.steps.insert(frame.stats.steps.begin(), made.begin(), made.end());
   for (const std::string& name : settings.images) frame.images.push_back({name, images.at(name)});
   return frame;
 }

@@ -1,12 +1,12 @@
 # `cmake --install`: the program, the libraries, the public headers and a package for find_package(airlight CONFIG).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-install(TARGETS airlight airlight_core airlight_scene airlight_reference airlight_cpu airlight_gpu EXPORT airlight
+install(TARGETS airlight airlight_core airlight_scene airlight_transfer airlight_reference airlight_cpu airlight_gpu EXPORT airlight
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT airlight)
 install(TARGETS airlight_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT airlight)
 install(FILES app/airlight.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight/app COMPONENT airlight)
 install(DIRECTORY common/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airlight/common COMPONENT airlight
-  FILES_MATCHING PATTERN "*.h" PATTERN formulas EXCLUDE PATTERN plan EXCLUDE PATTERN reference EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN formulas EXCLUDE PATTERN plan EXCLUDE PATTERN transfer EXCLUDE PATTERN reference EXCLUDE)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/airlight)
 install(EXPORT airlight FILE airlightTargets.cmake NAMESPACE airlight:: DESTINATION ${package} COMPONENT airlight)
 configure_package_config_file(cmake/airlightConfig.cmake.in airlightConfig.cmake INSTALL_DESTINATION ${package})

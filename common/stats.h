@@ -12,6 +12,7 @@ struct StepStats {
   double seconds = 0;                 // thread time summed over the workers on the CPU, wall time (glFinish) on GL
   std::uint64_t items = 0;            // pixels or triangles processed
   bool reused = false;                // its kept outputs were up to date
+  std::string note = {};              // where its result comes from, or was kept; empty: nothing to tell
   std::vector<float> residuals = {};  // of a step that iterates: the change in each round, beside the largest value
 };
 

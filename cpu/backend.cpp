@@ -86,8 +86,9 @@ struct CpuBackend::State {
   void prepare(std::size_t, const PixelStep&) {}
 
   void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view, int) {
+    float* const corners[3] = {view.plane(a.corners, 0), view.plane(a.corners, 1), view.plane(a.corners, 2)};
     rasterisers.at(index).run_tile(view.tile, view.plane(a.distance), view.plane(a.normal, 0), view.plane(a.normal, 1),
-                                   view.plane(a.normal, 2), view.plane(a.material));
+                                   view.plane(a.normal, 2), view.plane(a.material), a.corners ? corners : nullptr);
   }
   void run_tile(std::size_t index, const ShadowPlanes& a, const TileView& view, int worker) {
     shadow_rasterisers.at(index).run_tile(a, view, worker);

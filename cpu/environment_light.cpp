@@ -57,6 +57,11 @@ static void environment_light(const EnvironmentLight& a, const TileView& view, s
         lobe(t, surface.mirror, radiance);
         for (int c = 0; c < 3; ++c) specular[c] = select(mine, radiance[c] * share, specular[c]);
       }
+      const auto lessen = [&](const Image& hidden, Real* radiance) HWY_ATTR {
+        for (int c = 0; c < 3 && hidden; ++c) radiance[c] = max(radiance[c] - load(view.plane(hidden, c) + i), 0.0);
+      };
+      lessen(a.hidden_diffuse, diffuse);
+      lessen(a.hidden_specular, specular);
       const Real attenuation = transmittance(mean_depth(a.gaussians, surface.place));
       for (int c = 0; c < 3; ++c) {
         light[c] = select(hit, fma(m.diffuse[c], diffuse[c], m.specular[c] * specular[c]) * attenuation, light[c]);

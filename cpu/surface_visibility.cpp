@@ -21,7 +21,7 @@ struct VisibilityTile {
   std::span<const TriangleChunk> chunks;
   const float *positions, *normals;
   const std::uint32_t* triangles;
-  float *distance, *normal[3], *material;
+  float *distance, *normal[3], *material, *corners[3];
   alignas(64) float nearness[tile_pixels + 16];    // 1/z, 0: nothing
   alignas(64) std::int32_t hit[tile_pixels + 16];  // triangle, -1: nothing
 };
@@ -115,7 +115,7 @@ HWY_INLINE LaneTriangles lane_triangles(const VisibilityTile& s, const std::int3
 void resolve(const VisibilityTile& s) {
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Mask seen{hn::RebindMask(Floats(), hn::Gt(hn::LoadU(Ints(), s.hit + i), hn::Set(Ints(), -1)))};
-    Real distance = 1e30, material = -1.0;
+    Real distance = 1e30, material = -1.0, corners[3] = {0.0, 0.0, 0.0};
     Real3 n{0.0, 0.0, 0.0};
     if (any_lane(seen)) {
       const LaneTriangles t = lane_triangles(s, s.hit + i);
@@ -127,12 +127,25 @@ void resolve(const VisibilityTile& s) {
       distance = select(seen, at, distance);
       n = {select(seen, n.x, 0.0), select(seen, n.y, 0.0), select(seen, n.z, 0.0)};
       material = t.material;
+      if (s.corners[0]) {
+        // The triangle's own normal tells the side, turned as those of its corners are: these may look away at a silhouette.
+        const Real u[3] = {p[3] - p[0], p[4] - p[1], p[5] - p[2]}, v[3] = {p[6] - p[0], p[7] - p[1], p[8] - p[2]};
+        const Real3 f{fma(u[1], v[2], -(u[2] * v[1])), fma(u[2], v[0], -(u[0] * v[2])), fma(u[0], v[1], -(u[1] * v[0]))};
+        const Real side = -seen_side(d.x, d.y, d.z, f.x, f.y, f.z, f.x, f.y, f.z, f.x, f.y, f.z, 0.0, 0.0) *
+                          seen_side(f.x, f.y, f.z, q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[8], 1.0 / 3, 1.0 / 3);
+        const Real number = Real(hn::ConvertTo(Floats(), hn::LoadU(Ints(), s.hit + i))) + 1.0;
+        corners[0] = number * side;
+        corners[1] = select(seen, wb, 0.0);
+        corners[2] = select(seen, wc, 0.0);
+      }
     }
     store(distance, s.distance + i);
     store(n.x, s.normal[0] + i);
     store(n.y, s.normal[1] + i);
     store(n.z, s.normal[2] + i);
     store(material, s.material + i);
+    if (!s.corners[0]) continue;
+    for (int k = 0; k < 3; ++k) store(corners[k], s.corners[k] + i);
   }
 }
 
@@ -156,6 +169,8 @@ static void visibility_tile(VisibilityTile& s) {
     store(Real(1e30), s.distance + p);
     for (float* n : s.normal) store(Real(0.0), n + p);
     store(Real(-1.0), s.material + p);
+    if (!s.corners[0]) continue;
+    for (float* c : s.corners) store(Real(0.0), c + p);
   }
 }
 
@@ -189,7 +204,8 @@ void Rasteriser::prepare(const SurfaceVisibility& a, std::span<const float> posi
   s.setup.run(a, positions, triangles, workers);
 }
 
-void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material) const {
+void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material,
+                          float* const* corners) const {
   const State& s = *state_;
   VisibilityTile view;  // 32 KiB on the stack, written before it is read
   view.tile = tile;
@@ -203,6 +219,7 @@ void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* no
   view.normal[1] = normal_y;
   view.normal[2] = normal_z;
   view.material = material;
+  for (int k = 0; k < 3; ++k) view.corners[k] = corners ? corners[k] : nullptr;
   entry(HWY_DISPATCH_TABLE(visibility_tile), s.simd)(view);
 }
 

@@ -22,8 +22,9 @@ class Rasteriser {
   void prepare(const SurfaceVisibility&, std::span<const float> positions, std::span<const float> normals,
                std::span<const std::uint32_t> triangles, Simd, Workers&);
 
-  // Each pointer: tile_pixels floats. Safe from many threads at once.
-  void run_tile(Tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material) const;
+  // Each pointer: tile_pixels floats; `corners`: three of them, or null. Safe from many threads at once.
+  void run_tile(Tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material,
+                float* const* corners) const;
 
  private:
   struct State;

@@ -148,7 +148,7 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
 
   stats.steps.clear();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i], {}};
+    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i], {}, {}};
     if (runs[i]) {
       progress.check();
       const Clock::time_point step_start = Clock::now();

@@ -14,11 +14,14 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
     throw MachineError("OpenGL: the light of an environment through " + std::to_string(a.gaussians.size()) +
                        " Gaussians is more loops than a shader may run");
   }
-  Program& program = r.compute("gpu/environment_light.glsl", {});
+  Program& program = r.compute("gpu/environment_light.glsl",
+                               {a.hidden_diffuse ? "WITH_HIDDEN_DIFFUSE" : "", a.hidden_specular ? "WITH_HIDDEN_SPECULAR" : ""});
   r.read(0, a.distance);
   r.read(1, a.normal);
   r.read(2, a.material);
   r.read(3, a.transmittance);
+  if (a.hidden_diffuse) r.read(4, a.hidden_diffuse);
+  if (a.hidden_specular) r.read(5, a.hidden_specular);
   r.write(0, a.environment);
   r.storage(tables_binding, a.tables);
   // Two vectors a material: diffuse; specular and where its lobe's table begins.

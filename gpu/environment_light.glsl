@@ -5,6 +5,12 @@ layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray normal_image;
 layout(binding = 2) uniform sampler2DArray material_image;
 layout(binding = 3) uniform sampler2DArray transmittance_image;
+#ifdef WITH_HIDDEN_DIFFUSE
+layout(binding = 4) uniform sampler2DArray hidden_diffuse_image;
+#endif
+#ifdef WITH_HIDDEN_SPECULAR
+layout(binding = 5) uniform sampler2DArray hidden_specular_image;
+#endif
 layout(binding = 0, rgba32f) uniform writeonly image2DArray environment_image;
 
 layout(std140, binding = 2) uniform Knobs { ivec4 counts; };  // Gaussians, where the image begins, floats of a share
@@ -41,11 +47,19 @@ void main() {
     vec3 diffuse = materials[2 * int(index)].xyz;
     vec4 specular_table = materials[2 * int(index) + 1];
     vec3 n = texelFetch(normal_image, at, 0).xyz;
-    light = diffuse * lobe(0, n);
+    vec3 radiance = lobe(0, n);
+#ifdef WITH_HIDDEN_DIFFUSE
+    radiance = max(radiance - texelFetch(hidden_diffuse_image, at, 0).xyz, 0.0);
+#endif
+    light = diffuse * radiance;
     if (specular_table.xyz != vec3(0.0)) {
       vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
       int t = int(specular_table.w);
-      light += specular_table.xyz * (lobe(t, mirror) * environment_share(t, dot3(n, mirror)));
+      radiance = lobe(t, mirror) * environment_share(t, dot3(n, mirror));
+#ifdef WITH_HIDDEN_SPECULAR
+      radiance = max(radiance - texelFetch(hidden_specular_image, at, 0).xyz, 0.0);
+#endif
+      light += specular_table.xyz * radiance;
     }
     light *= transmittance(mean_depth(d * texelFetch(distance_image, at, 0).x));
   } else {

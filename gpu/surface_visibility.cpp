@@ -96,11 +96,12 @@ void draw(const SurfaceVisibility& a, StepRunner& r, GLuint hits, const Progress
 void run(const SurfaceVisibility& a, StepRunner& r, const Progress& progress) {
   const PooledTexture hits(r.pool(), {GL_R32UI, a.view.extent, 1});
   draw(a, r, hits.name(), progress);
-  Program& program = r.compute(file, {"RESOLVE"});
+  Program& program = r.compute(file, {"RESOLVE", a.corners ? "WITH_CORNERS" : ""});
   r.gl().BindTextureUnit(0, hits.name());
   r.write(0, a.distance);
   r.write(1, a.normal);
   r.write(2, a.material);
+  r.write(3, a.corners);
   r.storage(0, a.positions);
   r.storage(1, a.normals);
   r.storage(2, a.triangles);

@@ -29,6 +29,9 @@ layout(binding = 0) uniform usampler2DArray hit_image;
 layout(binding = 0, r32f) uniform writeonly image2DArray distance_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray normal_image;
 layout(binding = 2, r32f) uniform writeonly image2DArray material_image;
+#ifdef WITH_CORNERS
+layout(binding = 3, rgba32f) uniform writeonly image2DArray corners_image;
+#endif
 layout(std430, binding = 0) readonly buffer PositionBlock { float positions[]; };
 layout(std430, binding = 1) readonly buffer NormalBlock { float normals[]; };
 layout(std430, binding = 2) readonly buffer TriangleBlock { uvec4 triangles[]; };
@@ -44,6 +47,9 @@ void main() {
   float along = 1e30;
   vec3 n = vec3(0.0);
   float material = -1.0;
+#ifdef WITH_CORNERS
+  vec3 corners = vec3(0.0);
+#endif
   if (hit != 0u) {
     uvec4 t = triangles[hit - 1u];
     vec3 a = position_of(t.x);
@@ -58,10 +64,22 @@ void main() {
     vec3 nc = normal_of(t.z);
     shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, n.x, n.y, n.z);
     material = float(t.w);
+#ifdef WITH_CORNERS
+    // The triangle's own normal tells the side, turned as those of its corners are: these may look away at a silhouette.
+    vec3 u = b - a;
+    vec3 v = c - a;
+    vec3 f = vec3(fma(u.y, v.z, -(u.z * v.y)), fma(u.z, v.x, -(u.x * v.z)), fma(u.x, v.y, -(u.y * v.x)));
+    float side = -seen_side(d.x, d.y, d.z, f.x, f.y, f.z, f.x, f.y, f.z, f.x, f.y, f.z, 0.0, 0.0) *
+                 seen_side(f.x, f.y, f.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, 1.0 / 3.0, 1.0 / 3.0);
+    corners = vec3(float(hit) * side, wb, wc);
+#endif
   }
   imageStore(distance_image, at, vec4(along));
   imageStore(normal_image, at, vec4(n, 0.0));
   imageStore(material_image, at, vec4(material));
+#ifdef WITH_CORNERS
+  imageStore(corners_image, at, vec4(corners, 0.0));
+#endif
 }
 #endif
 

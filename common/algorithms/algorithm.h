@@ -12,6 +12,7 @@
 #include "common/algorithms/environment_light.h"
 #include "common/algorithms/fill_airlight.h"
 #include "common/algorithms/gaussian_airlight.h"
+#include "common/algorithms/hidden_environment.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/network_iteration.h"
@@ -30,10 +31,11 @@
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight,
-                               SurfaceShading, HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork,
-                               ParticleLight, NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians,
-                               LightMarch, Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight, Compose>;
+using Algorithm =
+    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight, SurfaceShading,
+                 HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
+                 NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians, LightMarch, Subsample,
+                 DepthAwareUpsample, FillAirlight, EnvironmentAirlight, HiddenEnvironment, Compose>;
 
 struct Step {
   Algorithm what;

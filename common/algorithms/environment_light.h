@@ -16,10 +16,12 @@ constexpr std::size_t environment_image_at(std::size_t shininess) { return (1 + 
 
 // Light of an environment as it reaches the camera: seen where no surface is hit, and reflected by surfaces. These take it from
 // spherical harmonics of order 6 (Zhou et al. 2007, 4.2, eq. 26-27 without what is scattered on the way): attenuated by the mean
-// optical depth of the Gaussians over all directions, in front of nothing but the surface's own horizon.
+// optical depth of the Gaussians over all directions, in front of nothing but the surface's own horizon and what is told as
+// hidden.
 struct EnvironmentLight {
   Image distance, normal, material, transmittance;  // as in SurfaceShading
   Buffer tables;                                    // common/plan/environment.h makes them
+  Image hidden_diffuse, hidden_specular;            // as HiddenEnvironment makes them; optional
   std::vector<Material> materials;
   std::vector<GaussianDensity> gaussians;  // whatever their reach
   View view;
@@ -35,6 +37,8 @@ struct EnvironmentLight {
     v(in("material"), s.material);
     v(in("transmittance"), s.transmittance);
     v(in("tables"), s.tables);
+    v(in("hidden_diffuse", "W/m^2/sr"), s.hidden_diffuse);
+    v(in("hidden_specular", "W/m^2/sr"), s.hidden_specular);
     v(knob("materials"), s.materials);
     v(knob("gaussians"), s.gaussians);
     v(knob("view"), s.view);

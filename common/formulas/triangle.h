@@ -39,3 +39,18 @@ FORMULA void shading_normal(real dx, real dy, real dz, real ax, real ay, real az
   ny = select(well, y * s, -dy);
   nz = select(well, z * s, -dz);
 }
+
+// Which side of the triangle that is: 1 where shading_normal() leaves the normals as they are, -1 where it turns them.
+FORMULA real seen_side(real dx, real dy, real dz, real ax, real ay, real az, real bx, real by, real bz,
+                       real cx, real cy, real cz, real weight_b, real weight_c) {
+  real weight_a = 1.0 - weight_b - weight_c;
+  real x = fma(ax, weight_a, fma(bx, weight_b, cx * weight_c));
+  real y = fma(ay, weight_a, fma(by, weight_b, cy * weight_c));
+  real z = fma(az, weight_a, fma(bz, weight_b, cz * weight_c));
+  return select(fma(x, dx, fma(y, dy, z * dz)) > 0.0, real(-1.0), real(1.0));
+}
+
+// Between values at the corners.
+FORMULA real between_corners(real a, real b, real c, real weight_b, real weight_c) {
+  return fma(c - a, weight_c, fma(b - a, weight_b, a));
+}

@@ -82,6 +82,7 @@ FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
   beauty_ = image("beauty", Format::rgb32f);
   per_light = per_light_image();
   expect_environment_airlight();
+  expect_environment_shadows();
   for (const Plan::Upload* upload : {&geometry.positions, &geometry.normals, &geometry.indices}) plan.uploads.push_back(*upload);
   plan.steps.push_back({SurfaceVisibility{.positions = geometry.positions.buffer,
                                           .normals = geometry.normals.buffer,
@@ -89,7 +90,8 @@ FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
                                           .view = view,
                                           .distance = distance,
                                           .normal = normal,
-                                          .material = material},
+                                          .material = material,
+                                          .corners = corners_},
                         "what each pixel sees"});
   if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ Knob indirect_knob();
 Knob table_nodes_knob();
 // `environment_airlight`: on | published | off, of what the medium makes of an environment.
 Knob environment_knob();
+// `environment_shadows`: on | off, and `environment_rays`, of what surfaces hide of an environment from each other.
+Knob environment_shadows_knob();
+Knob environment_rays_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
@@ -80,13 +84,18 @@ class FramePlan {
   Image per_light_image();
   Image add_indirect();
   Image add_environment();
+  void expect_environment_shadows();
+  void add_environment_shadows();
   void expect_environment_airlight();
   void add_environment_airlight();
   Image add_lit(Buffer volumes, std::uint32_t id);
   bool wanted(std::string_view name) const;
 
   std::uint32_t next_id_;
+  std::shared_ptr<const Scene> hiding_;  // what transfer and hidden part are made of
+  std::uint64_t transfer_key_ = 0;
   Image surface_, surface_direct_, surface_ambient_, beauty_;
+  Image corners_, hidden_diffuse_, hidden_specular_;  // absent where surfaces hide nothing of an environment
   Image airlight_;  // with what the medium scatters of an environment; absent where that is nothing
 };
 

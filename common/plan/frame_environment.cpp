@@ -1,4 +1,6 @@
 // What the plans of all techniques make of a scene's environment.
+#include <algorithm>
+#include <memory>
 #include <string>
 
 #include "common/error.h"
@@ -6,6 +8,7 @@
 #include "common/plan/frame.h"
 #include "common/plan/frame_ids.h"
 #include "common/plan/hash.h"
+#include "common/plan/hidden_environment.h"
 #include "common/plan/surface_airlight_tables.h"
 #include "common/plan/upload.h"
 
@@ -23,6 +26,30 @@ Knob environment_knob() {
               "print it for the isotropic phase function, or none",
           .sweep = {},
           .baselines = {"published"}};
+}
+
+Knob environment_shadows_knob() {
+  return {
+      .name = "environment_shadows",
+      .kind = Knob::Kind::choice,
+      .standard = "on",
+      .least = 0,
+      .most = 0,
+      .choices = {"on", "off"},
+      .meaning =
+          "what casters hide of an environment from surfaces: found once for their geometry, kept beside the mesh by the program",
+      .sweep = {}};
+}
+
+Knob environment_rays_knob() {
+  return {.name = "environment_rays",
+          .kind = Knob::Kind::integer,
+          .standard = "256",
+          .least = 16,
+          .most = 65536,
+          .choices = {},
+          .meaning = "rays from each side of a vertex that find what casters hide of an environment",
+          .sweep = {}};
 }
 
 std::optional<std::string> refuses_environment(const Scene& scene) {
@@ -83,6 +110,72 @@ void FramePlan::add_environment_airlight() {
   airlight = airlight_;
 }
 
+// Where surfaces hide anything, edges are cut and corners are wanted.
+void FramePlan::expect_environment_shadows() {
+  if (!scene.environment) return;
+  const auto skip = [&](const char* why) { plan.skips.push_back({"shadows in the environment's light", why}); };
+  if (!has_surfaces()) return skip("no surface");
+  if (!std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                   [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); }))
+    return skip("nothing casts a shadow");
+  if (request.knobs.choice("environment_shadows") == "off") return skip("environment_shadows = off");
+  const auto needless = [&](const Material& m) { return m.diffuse == glm::vec3(0) && m.specular == glm::vec3(0); };
+  if (std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& s) { return needless(s.material); }))
+    return skip("the surfaces reflect nothing");
+  constexpr std::size_t most_triangles = 1 << 22;  // they may be cut, and their numbers must stay below 2^24
+  if (geometry.triangles > most_triangles) return skip("more than 2^22 triangles");
+
+  const int rays = static_cast<int>(request.knobs.number("environment_rays"));
+  transfer_key_ = transfer_key(scene, rays);
+  // The uploads may outlive the scene: this shares its meshes.
+  const auto part = std::make_shared<Scene>();
+  part->camera = scene.camera, part->surfaces = scene.surfaces, part->environment = scene.environment;
+  hiding_ = part;
+  const auto cut = [&](Plan::Upload& upload, std::vector<std::byte> (*make)(const Scene&, const SurfaceTransfer&)) {
+    Hash key;
+    key.add(upload.key), key.add(transfer_key_);
+    upload.key = key.value();
+    upload.make = [hiding = hiding_, source = request.transfer, rays, make] {
+      return make(*hiding, *source->transfer(*hiding, rays));
+    };
+  };
+  cut(geometry.positions, cut_positions);
+  cut(geometry.normals, cut_normals);
+  cut(geometry.indices, cut_triangles);
+  corners_ = handed_on(next_id_++, Format::rgb32f, 1);
+}
+
+void FramePlan::add_environment_shadows() {
+  if (!corners_) return;
+  const bool glossy = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                  [](const Surface& s) { return s.material.specular != glm::vec3(0); });
+  hidden_diffuse_ = handed_on(next_id_++, Format::rgb32f, 1);
+  if (glossy) hidden_specular_ = handed_on(next_id_++, Format::rgb32f, 1);
+  // Of the materials the lobes alone.
+  Hash key;
+  key.add(std::string_view("hidden environment"));
+  key.add(transfer_key_);
+  key.add(environment_key(*scene.environment, {}));
+  for (const Surface& s : scene.surfaces) {
+    const bool lobe = s.material.specular != glm::vec3(0);
+    key.add(lobe);
+    if (lobe) key.add(s.material.shininess);
+  }
+  const Buffer table{{hidden_environment_id}, 0};
+  const int rays = static_cast<int>(request.knobs.number("environment_rays"));
+  plan.uploads.push_back(table_upload(table, key.value(), [hiding = hiding_, source = request.transfer, rays] {
+    return hidden_environment_table(*hiding, *source->transfer(*hiding, rays));
+  }));
+  plan.steps.push_back({HiddenEnvironment{.normal = normal,
+                                          .corners = corners_,
+                                          .triangles = geometry.indices.buffer,
+                                          .table = table,
+                                          .view = view,
+                                          .diffuse = hidden_diffuse_,
+                                          .specular = hidden_specular_},
+                        "what surfaces hide of the environment from each other"});
+}
+
 // Absent without an environment.
 Image FramePlan::add_environment() {
   if (!scene.environment) return {};
@@ -92,12 +185,15 @@ Image FramePlan::add_environment() {
   plan.uploads.push_back(
       table_upload(tables, environment_key(*scene.environment, shininess),
                    [environment = *scene.environment, shininess] { return environment_table(environment, shininess); }));
+  add_environment_shadows();
   const Image environment = image("surface.environment", Format::rgb32f);
   plan.steps.push_back({EnvironmentLight{.distance = distance,
                                          .normal = normal,
                                          .material = material,
                                          .transmittance = transmittance,
                                          .tables = tables,
+                                         .hidden_diffuse = hidden_diffuse_,
+                                         .hidden_specular = hidden_specular_,
                                          .materials = materials,
                                          .gaussians = has_surfaces() ? gaussians_of(scene) : std::vector<GaussianDensity>{},
                                          .view = view,

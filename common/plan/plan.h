@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,12 +14,15 @@
 
 namespace airlight {
 
+class TransferSource;  // common/plan/surface_transfer.h
+
 // One pass over the image: extent, sub-pixel shift, and the images wanted.
 struct FrameRequest {
   Extent extent;
   glm::dvec2 offset{0, 0};       // [pixel] of the sample from the pixel centre
   std::set<std::string> images;  // names as in aov_names(), "beauty" among them where wanted
   KnobValues knobs;
+  std::shared_ptr<TransferSource> transfer = {};  // asked by uploads alone; none for plans whose uploads are not made
 };
 
 struct Plan {

@@ -20,7 +20,7 @@ class EnvironmentLighting {
   glm::dvec3 radiance(const glm::dvec3& direction) const;
 
   // Radiance that a surface sends to the viewer: from all directions above the horizon of its normal, each attenuated by
-  // transmittance(direction) (0..1), hidden by nothing. Unit vectors; the mirror direction of the view ray. The error is the
+  // transmittance(direction) (0..1). Unit vectors; the mirror direction of the view ray. The error is the
   // difference to half as many directions a degree; images finer than two pixels a degree are finer than those of narrow lobes.
   Integral reflected(const glm::dvec3& normal, const glm::dvec3& mirror, const Material&,
                      const std::function<double(const glm::dvec3&)>& transmittance) const;

@@ -102,7 +102,10 @@ Integral Reference::environment(const glm::dvec3& d, const Seen& seen) const {
   return environment_->reflected(seen.normal, d - 2 * glm::dot(d, seen.normal) * seen.normal,
                                  scene_.surfaces[static_cast<std::size_t>(seen.surface)].material, [&](const glm::dvec3& u) {
                                    source.direction = -u;
-                                   return std::exp(-depth_to_light(medium_, seen.point, {source, glm::dvec3(0)}, 0));
+                                   const RelativeLight light(source, glm::dvec3(0));
+                                   if (settings_.environment_shadows && visibility_.blocked(seen.point, seen.triangle, light))
+                                     return 0.0;
+                                   return std::exp(-depth_to_light(medium_, seen.point, light, 0));
                                  });
 }
 

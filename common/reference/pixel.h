@@ -21,13 +21,14 @@ enum class Indirect { off, unbounded, exact };
 
 struct ReferenceSettings {
   double tolerance = 1e-7;  // relative, of each light's integral along a ray: 1e-12..1e-2
-  bool shadows = true;      // off: V = 1 everywhere, on surfaces and in the medium
+  bool shadows = true;      // off: V = 1 everywhere, on surfaces and in the medium, for the light of lamps
   Indirect indirect = Indirect::off;
   double indirect_tolerance = 1e-3;  // relative, of what is indirect and exact from each light: 1e-6..1e-1
   int max_bounces = 1;               // orders of scattering in the airlight; those above the first by random paths (paths.h)
   int paths = 256;                   // a pixel, >= 2
   bool single_by_paths = false;      // the first order by paths, too, instead of by quadrature
   std::uint32_t seed = 0;            // of the paths
+  bool environment_shadows = true;   // off: V = 1 for an environment's light on surfaces; in the medium it always is
 
   bool any_paths() const { return max_bounces > 1 || single_by_paths; }
 };
@@ -61,8 +62,8 @@ struct ReferenceParts {
 // once (or up to max_bounces times) in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least
 // distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
 // illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). An
-// environment's light is hidden by nothing, on its way to surfaces and into the medium, which scatters it once whatever
-// max_bounces. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// environment's light is hidden by surfaces on its way to others, and by nothing on its way into the medium, which scatters it
+// once whatever max_bounces. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   // Throws InputError where a directional light and homogeneous fog of albedo 1 have no sum of so many orders.

@@ -122,6 +122,7 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
   const auto start = std::chrono::steady_clock::now();
   ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
                              indirect_of(request.knobs.choice("indirect")), request.knobs.number("indirect_tolerance")};
+  settings.environment_shadows = request.knobs.choice("environment_shadows") == "on";
   settings.max_bounces = static_cast<int>(request.knobs.number("max_bounces"));
   settings.paths = static_cast<int>(request.knobs.number("paths"));
   settings.single_by_paths = request.knobs.choice("single_scattering") == "paths";

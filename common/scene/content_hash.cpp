@@ -59,7 +59,7 @@ class Content {
     add(type), add(position), add(direction), add(power), add(radius);
   }
   void add(const Mesh& mesh) {
-    const auto& [positions, normals, triangles] = mesh;
+    const auto& [positions, normals, triangles, file] = mesh;
     add(positions), add(normals), add(triangles);
   }
   void add(const Material& material) {

@@ -114,7 +114,9 @@ std::shared_ptr<const Mesh> mesh_of(const AssimpFile& file, const std::string& p
   join_vertices(raw);
   if (raw.triangles.empty()) return nullptr;
   progress.check();
-  return std::make_shared<const Mesh>(with_normals(std::move(raw), flat));
+  Mesh mesh = with_normals(std::move(raw), flat);
+  mesh.file = path;
+  return std::make_shared<const Mesh>(std::move(mesh));
 }
 
 MeshFile read_mesh_file(const std::string& path, bool flat, Progress& progress) {

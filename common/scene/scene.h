@@ -93,6 +93,7 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<glm::uvec3> triangles;
+  std::string file = {};  // that it was read from; empty: made in code
 };
 
 struct Surface {

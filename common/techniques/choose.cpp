@@ -10,14 +10,16 @@
 namespace airlight {
 
 // What the environment's light adds to an error (tests/truth/environment.cpp): harmonics leave little of matt surfaces and of
-// fog. Narrow lobes and other media are not promised.
-static double environment_error(const Scene& scene) {
+// fog, what surfaces hide of it leaves more (environment_shadows.cpp there). Narrow lobes and other media are not promised.
+static double environment_error(const Scene& scene, const KnobValues& knobs) {
   if (!scene.environment) return 0;
   if (!scene.medium.gaussians.empty() || scene.medium.grid) return std::numeric_limits<double>::infinity();
-  double error = scene.medium.extinction > 0 ? 0.015 : 0.002;
+  const bool hidden = std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [](const Surface& s) { return s.casts_shadow; });
+  if (hidden && knobs.choice("environment_shadows") == "off") return std::numeric_limits<double>::infinity();
+  double error = hidden ? 0.03 : scene.medium.extinction > 0 ? 0.015 : 0.002;
   for (const Surface& s : scene.surfaces) {
     if (s.material.specular == glm::vec3(0)) continue;
-    error = std::max(error, s.material.shininess > 40 ? std::numeric_limits<double>::infinity() : 0.03);
+    error = std::max(error, s.material.shininess > 40 ? std::numeric_limits<double>::infinity() : hidden ? 0.06 : 0.03);
   }
   return error;
 }
@@ -67,8 +69,9 @@ Choice choose(const Scene& scene, Extent extent, const Goal& goal, std::string_v
     for (const Settings& settings : products(t.knobs)) {
       Settings all = t.name == scene.technique ? scene.settings : Settings();  // they hold where the goal has none
       all.insert(all.end(), settings.begin(), settings.end());
-      Estimate e = t.estimate(scene, extent, KnobValues(t.knobs, all), threads);
-      e.error += environment_error(scene);
+      const KnobValues knobs(t.knobs, all);
+      Estimate e = t.estimate(scene, extent, knobs, threads);
+      e.error += environment_error(scene, knobs);
       if (!std::isfinite(e.error)) continue;
       known = true;
       if (nearest.technique.empty() || missed(e) < missed(nearest.estimate)) nearest = {std::string(t.name), settings, e};

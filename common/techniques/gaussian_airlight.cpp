@@ -226,7 +226,9 @@ Technique gaussian_airlight() {
       shadows_knob(),
       airlight_resolution_knob(),
       indirect_knob(),
-      environment_knob()};
+      environment_knob(),
+      environment_shadows_knob(),
+      environment_rays_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

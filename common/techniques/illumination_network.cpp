@@ -259,7 +259,9 @@ Technique illumination_network() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),
-             environment_knob()};
+             environment_knob(),
+             environment_shadows_knob(),
+             environment_rays_knob()};
   t.multiple_scattering = true;
   t.refuses = refuses;
   t.plan = plan;

@@ -38,6 +38,7 @@ Technique reference_technique() {
        .choices = {"on", "off"},
        .meaning = "whether surfaces cast shadows on each other and into the medium",
        .sweep = {}},
+      environment_shadows_knob(),
       exact_indirect_knob(),
       {.name = "indirect_tolerance",
        .kind = Knob::Kind::number,

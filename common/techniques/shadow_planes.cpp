@@ -114,7 +114,9 @@ Technique shadow_planes() {
        .sweep = {},
        .baselines = {"published"}},
       indirect_knob(),
-      environment_knob()};
+      environment_knob(),
+      environment_shadows_knob(),
+      environment_rays_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

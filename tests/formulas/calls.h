@@ -94,6 +94,8 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 21) {
     shading_normal(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13], r[0], r[1], r[2]);
   }
+  if (formula == 85) r[0] = seen_side(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], a[12], a[13]);
+  if (formula == 86) r[0] = between_corners(a[0], a[1], a[2], a[3], a[4]);
   if (formula == 22) r[0] = image_plane_x(a[0], a[1], a[2], a[3], a[4]);
   if (formula == 23) r[0] = image_plane_y(a[0], a[1], a[2], a[3]);
   if (formula == 24) view_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], r[0], r[1], r[2]);

@@ -27,6 +27,7 @@ std::vector<NamedCase> all_cases() {
                           depth_aware_upsample_cases(),
                           fill_airlight_cases(),
                           environment_airlight_cases(),
+                          hidden_environment_cases(),
                           compose_cases(),
                           frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());

@@ -21,7 +21,8 @@ Environment test_environment(Extent extent) {
   return {image, {1.2, 1.2, 1.2}, 30};
 }
 
-Case lit(Extent extent, const Environment& environment, const std::vector<Material>& materials, int gaussians) {
+Case lit(Extent extent, const Environment& environment, const std::vector<Material>& materials, int gaussians,
+         bool partly_hidden = false) {
   Case c;
   const View view = test_view(extent);
   TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -37,12 +38,21 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
   const auto bytes = std::as_bytes(std::span(tables));
   const Buffer buffer{{5}, bytes.size()};
   c.buffers.emplace_back(buffer, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  Image hidden[2];
+  for (std::uint32_t k = 0; k < 2 && partly_hidden; ++k) {
+    hidden[k] = {{7 + k}, Format::rgb32f, extent, 1, false};
+    std::vector<float> values(hidden[k].floats());
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(uniform(8 + k, i));
+    c.images.emplace_back(hidden[k], std::move(values));
+  }
   const Image result{{6}, Format::rgb32f, extent, 1, true};
   c.steps = {{EnvironmentLight{.distance = surfaces.distance,
                                .normal = surfaces.normal,
                                .material = surfaces.material,
                                .transmittance = transmittance,
                                .tables = buffer,
+                               .hidden_diffuse = hidden[0],
+                               .hidden_specular = hidden[1],
                                .materials = materials,
                                .gaussians = test_gaussians(gaussians),
                                .view = view,
@@ -54,6 +64,7 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
 
 Case image(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), 12); }
 Case constant(Extent e) { return lit(e, {nullptr, {0.3, 0.5, 0.9}, 0}, {test_materials()[0]}, 0); }
+Case partly_hidden(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), 12, true); }
 Case glossy(Extent e) {
   std::vector<Material> materials = test_materials();
   materials[0].specular = {0.3F, 0.2F, 0.1F};
@@ -66,6 +77,7 @@ Case glossy(Extent e) {
 
 std::span<const NamedCase> environment_light_cases() {
   static constexpr NamedCase cases[] = {{"environment_light/image_12_gaussians", image},
+                                        {"environment_light/partly_hidden", partly_hidden},
                                         {"environment_light/constant_clear", constant},
                                         {"environment_light/shininess_1_and_1000_300_gaussians", glossy}};
   return cases;

@@ -167,9 +167,9 @@ Scene extreme_gaussians(std::uint32_t seed) {
 TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
   RenderSettings settings;
   settings.technique = "gaussian-airlight";
-  settings.knobs = {{"samples", "3"}};
+  settings.knobs = {{"samples", "3"}, {"environment_rays", "16"}};
   expect_finite(GetParam(), extreme_gaussians, settings, 50);
-  settings.knobs = {{"light_path", "published"}, {"shadows", "off"}};
+  settings.knobs = {{"light_path", "published"}, {"shadows", "off"}, {"environment_rays", "16"}};
   expect_finite(GetParam(), extreme_gaussians, settings, 25);
 }
 

@@ -35,6 +35,9 @@ const std::vector<Room>& rooms() {
         "common/spelling.h"}},
       {"common/techniques",
        {"common/algorithms", "common/error.h", "common/formulas", "common/plan", "common/scene", "common/spelling.h"}},
+      {"common/transfer",
+       {"common/error.h", "common/formulas", "common/plan/surface_transfer.h", "common/progress.h", "common/scene",
+        "common/stats.h"}},
       // Mathematics of its own: of plans it knows what is asked for, and no table.
       {"common/reference",
        {"common/algorithms/view.h", "common/error.h", "common/formulas", "common/image.h", "common/plan/plan.h",

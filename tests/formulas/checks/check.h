@@ -87,6 +87,8 @@ enum class Formula : int {
   environment_value = 77,       // direction; the table: an image; the phase's kind is the channel
   environment_share = 78,       // cosine; the table: of a lobe
   environment_reflection = 79,  // direction; the table: of a lobe -> red, green, blue
+  seen_side = 85,               // as shading_normal -> 1 or -1
+  between_corners = 86,         // three values, weights of b and c
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;

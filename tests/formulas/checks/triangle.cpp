@@ -112,11 +112,55 @@ Measured measure_shading_normal(const Run& run) {
   return m;
 }
 
+// The side whose normal, that of the interpolated ones, looks against the ray.
+Measured measure_seen_side(const Run& run) {
+  Random random(stream + 3);
+  Columns in;
+  for (int k = 0; k < 20000; ++k) {
+    const glm::dvec3 d = random.direction(), na = random.direction(), nb = random.direction(), nc = random.direction();
+    const double wb = random.number(), wc = random.number(0, 1 - wb);
+    add_call(in, d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc);
+  }
+  const Columns found = run({Formula::seen_side, in});
+  Measured m;
+  for (std::size_t k = 0; k < in[0].size(); ++k) {
+    const double wb = in[12][k], wc = in[13][k];
+    const double toward =
+        glm::dot(vector_at(in, 0, k), (1 - wb - wc) * vector_at(in, 3, k) + wb * vector_at(in, 6, k) + wc * vector_at(in, 9, k));
+    if (!(std::fabs(toward) > 1e-5)) continue;
+    m.add(std::fabs(found[0][k] - (toward > 0 ? -1 : 1)), [&] { return place({{"toward the ray", toward}}); });
+  }
+  return m;
+}
+
+// The weighted sum, beside the largest of the three; at the corners what is there.
+Measured measure_between_corners(const Run& run) {
+  Random random(stream + 4);
+  Columns in;
+  for (int k = 0; k < 20000; ++k) {
+    const double scale = random.magnitude(1e-6, 1e6), wb = k % 4 == 0 ? k / 4 % 2 : random.number();
+    const double wc = k % 4 == 0 ? (1 - wb) * (k / 8 % 2) : random.number(0, 1 - wb);
+    add_call(in, scale * random.number(-1, 1), scale * random.number(-1, 1), scale * random.number(-1, 1), wb, wc);
+  }
+  const Columns found = run({Formula::between_corners, in});
+  Measured m;
+  for (std::size_t k = 0; k < in[0].size(); ++k) {
+    const double a = in[0][k], b = in[1][k], c = in[2][k], wb = in[3][k], wc = in[4][k];
+    const double truth = (1 - wb - wc) * a + wb * b + wc * c;
+    m.add(std::fabs(found[0][k] - truth) / std::max({std::fabs(a), std::fabs(b), std::fabs(c)}), [&] {
+      return place({{"a", a}, {"b", b}, {"c", c}, {"weight of b", wb}, {"of c", wc}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_triangle_checks(std::vector<Check>& checks) {
   checks.push_back({"ray_triangle", measure_ray_triangle, "geometry_double", "ray_triangle"});
   checks.push_back({"ray_triangle_held", measure_ray_triangle_held, "geometry_double", "direction"});
+  checks.push_back({"seen_side", measure_seen_side, "geometry_double", "geometry_double"});
+  checks.push_back({"between_corners", measure_between_corners, "between_corners_double", "between_corners"});
   checks.push_back({"shading_normal", measure_shading_normal, "geometry_double", "direction"});
 }
 

@@ -1,0 +1,89 @@
+#include "cpu/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cpu/hidden_environment.cpp"
+#include <hwy/foreach_target.h>
+
+#include "cpu/simd.h"
+//
+#include "cpu/pixel_rays.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace airlight::HWY_NAMESPACE {
+
+namespace {
+
+// What the lanes look at when they look along the mirror direction: made when the first of them needs it.
+struct LaneBasis {
+  Real v[36];
+  bool made = false;
+
+  HWY_INLINE void make(const HiddenEnvironment& a, const TileView& view, int i) {
+    if (made) return;
+    const Real3 d = pixel_rays(a.view, view.tile, i);
+    const Real3 n{load(view.plane(a.normal, 0) + i), load(view.plane(a.normal, 1) + i), load(view.plane(a.normal, 2) + i)};
+    const Real twice = dot(n, d) * 2.0;
+    const Real3 mirror{fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
+    sh_basis(6, -mirror.z, mirror.x, mirror.y, v);
+    made = true;
+  }
+};
+
+}  // namespace
+
+static void hidden_environment(const HiddenEnvironment& a, const TileView& view) {
+  const float* head = view.floats(a.table);
+  const auto* triangles = reinterpret_cast<const std::uint32_t*>(view.floats(a.triangles));
+  const auto vertices = static_cast<std::ptrdiff_t>(head[0]);
+  const float* of_vertex = head + hidden_head_floats;
+  const float* lobes = of_vertex + 2 * hidden_vertex_floats * vertices;
+  const Ints di;
+  HWY_ALIGN std::int32_t numbers[lanes];
+  for (int i = 0; i < tile_pixels; i += lanes) {
+    Real diffuse[3] = {0.0, 0.0, 0.0}, specular[3] = {0.0, 0.0, 0.0};
+    const IntVec number = to_int(load(view.plane(a.corners) + i));
+    const Real wb = load(view.plane(a.corners, 1) + i), wc = load(view.plane(a.corners, 2) + i);
+    const Real weights[3] = {1.0 - wb - wc, wb, wc};
+    LaneBasis basis;
+    // Neighbouring pixels mostly see the same triangle: each different one is read once, for all lanes that see it.
+    hn::Store(number, di, numbers);
+    auto waiting = hn::Ne(number, hn::Zero(di));
+    while (!hn::AllFalse(di, waiting)) {
+      const std::int32_t first = numbers[hn::FindFirstTrue(di, waiting)];
+      const auto same = hn::Eq(number, hn::Set(di, first));
+      waiting = hn::AndNot(same, waiting);
+      const Mask here{hn::RebindMask(Floats(), same)};
+      const std::uint32_t* corners = triangles + (static_cast<std::ptrdiff_t>(first < 0 ? -first : first) - 1) * 4;
+      const float* at[3];
+      for (int k = 0; k < 3; ++k)
+        at[k] = of_vertex + hidden_vertex_floats * (corners[k] + (first < 0 ? vertices : std::ptrdiff_t{0}));
+      for (int c = 0; c < 3; ++c) diffuse[c] = select(here, between_corners(at[0][c], at[1][c], at[2][c], wb, wc), diffuse[c]);
+      if (!a.specular) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (at[k][3] < 0) continue;
+        basis.make(a, view, i);
+        const float* lobe = lobes + hidden_lobe_floats * static_cast<std::ptrdiff_t>(at[k][3]);
+        for (int c = 0; c < 3; ++c)
+          specular[c] = select(here, fma(weights[k], sh_sum(lobe + c * 36, 6, basis.v), specular[c]), specular[c]);
+      }
+    }
+    for (int c = 0; c < 3; ++c) store(diffuse[c], view.plane(a.diffuse, c) + i);
+    if (!a.specular) continue;
+    for (int c = 0; c < 3; ++c) store(specular[c], view.plane(a.specular, c) + i);
+  }
+}
+
+}  // namespace airlight::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace airlight {
+
+HWY_EXPORT(hidden_environment);
+
+void run_tile(const HiddenEnvironment& a, const TileView& view, Simd simd) {
+  entry(HWY_DISPATCH_TABLE(hidden_environment), simd)(a, view);
+}
+
+}  // namespace airlight
+#endif
