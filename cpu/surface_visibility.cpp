@@ -128,11 +128,7 @@ void resolve(const VisibilityTile& s) {
       n = {select(seen, n.x, 0.0), select(seen, n.y, 0.0), select(seen, n.z, 0.0)};
       material = t.material;
       if (s.corners[0]) {
-        // The triangle's own normal tells the side, turned as those of its corners are: these may look away at a silhouette.
-        const Real u[3] = {p[3] - p[0], p[4] - p[1], p[5] - p[2]}, v[3] = {p[6] - p[0], p[7] - p[1], p[8] - p[2]};
-        const Real3 f{fma(u[1], v[2], -(u[2] * v[1])), fma(u[2], v[0], -(u[0] * v[2])), fma(u[0], v[1], -(u[1] * v[0]))};
-        const Real side = -seen_side(d.x, d.y, d.z, f.x, f.y, f.z, f.x, f.y, f.z, f.x, f.y, f.z, 0.0, 0.0) *
-                          seen_side(f.x, f.y, f.z, q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[8], 1.0 / 3, 1.0 / 3);
+        const Real side = seen_side(d.x, d.y, d.z, q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[8], wb, wc);
         const Real number = Real(hn::ConvertTo(Floats(), hn::LoadU(Ints(), s.hit + i))) + 1.0;
         corners[0] = number * side;
         corners[1] = select(seen, wb, 0.0);

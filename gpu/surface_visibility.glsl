@@ -65,12 +65,7 @@ void main() {
     shading_normal(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc, n.x, n.y, n.z);
     material = float(t.w);
 #ifdef WITH_CORNERS
-    // The triangle's own normal tells the side, turned as those of its corners are: these may look away at a silhouette.
-    vec3 u = b - a;
-    vec3 v = c - a;
-    vec3 f = vec3(fma(u.y, v.z, -(u.z * v.y)), fma(u.z, v.x, -(u.x * v.z)), fma(u.x, v.y, -(u.y * v.x)));
-    float side = -seen_side(d.x, d.y, d.z, f.x, f.y, f.z, f.x, f.y, f.z, f.x, f.y, f.z, 0.0, 0.0) *
-                 seen_side(f.x, f.y, f.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, 1.0 / 3.0, 1.0 / 3.0);
+    float side = seen_side(d.x, d.y, d.z, na.x, na.y, na.z, nb.x, nb.y, nb.z, nc.x, nc.y, nc.z, wb, wc);
     corners = vec3(float(hit) * side, wb, wc);
 #endif
   }

@@ -17,8 +17,8 @@ struct SurfaceVisibility {
   Image distance;  // r32f: along the ray [m]; 1e30 where nothing is hit
   Image normal;    // rgb32f: interpolated, unit length, turned to the viewer; 0 where nothing is hit
   Image material;  // r32f: index; -1 where nothing is hit
-  // rgb32f, optional, of at most 2^24 - 1 triangles: the triangle's number plus one, negative where the side is seen from which
-  // its normals look away; the weights of its second and third corner. 0 where nothing is hit.
+  // rgb32f, optional, of at most 2^24 - 1 triangles: the triangle's number plus one, negative where `normal` is turned
+  // (seen_side()); the weights of its second and third corner. 0 where nothing is hit.
   Image corners;
 
   static constexpr std::string_view name = "surface_visibility";
