@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "cpu/environment_light.cpp"
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
+
 #include "common/plan/surface_airlight_tables.h"
 #include "cpu/simd.h"
 //
@@ -28,7 +30,9 @@ static HWY_INLINE Real mean_depth(const std::vector<GaussianDensity>& gaussians,
 static void environment_light(const EnvironmentLight& a, const TileView& view, std::span<const float> shininess) {
   const float* through = view.plane(a.transmittance);
   const float* tables = view.floats(a.tables);
-  const float* image = tables + environment_image_at(shininess.size());
+  const std::vector<float> brdf(a.brdf.begin(), a.brdf.end());
+  const auto brdfs = static_cast<std::size_t>(a.brdf.empty() ? 0 : *std::max_element(a.brdf.begin(), a.brdf.end()) + 1);
+  const float* image = tables + environment_image_at(shininess.size(), brdfs);
   for (int i = 0; i < tile_pixels; i += lanes) {
     const LaneSurface surface(a, view, i);
     const Mask hit = surface.hit;
@@ -63,9 +67,19 @@ static void environment_light(const EnvironmentLight& a, const TileView& view, s
       lessen(a.hidden_diffuse, diffuse);
       lessen(a.hidden_specular, specular);
       const Real attenuation = transmittance(mean_depth(a.gaussians, surface.place));
-      for (int c = 0; c < 3; ++c) {
-        light[c] = select(hit, fma(m.diffuse[c], diffuse[c], m.specular[c] * specular[c]) * attenuation, light[c]);
+      Real reflected[3];
+      for (int c = 0; c < 3; ++c) reflected[c] = fma(m.diffuse[c], diffuse[c], m.specular[c] * specular[c]);
+      for (std::size_t b = 0; b < brdfs; ++b) {
+        const Real number = static_cast<float>(b), tabulated = lane_brdf(brdf, surface.index);
+        const Mask mine = hit && (tabulated >= number) && (tabulated <= number);
+        if (!any_lane(mine)) continue;
+        const Real3 &n = surface.normal, &v = surface.viewer;
+        Real sent[3];
+        brdf_environment(tables + environment_harmonics_at(shininess.size()), tables + brdf_lobes_at(shininess.size(), b), n.x,
+                         n.y, n.z, v.x, v.y, v.z, sent[0], sent[1], sent[2]);
+        for (int c = 0; c < 3; ++c) reflected[c] = select(mine, sent[c], reflected[c]);
       }
+      for (int c = 0; c < 3; ++c) light[c] = select(hit, reflected[c] * attenuation, light[c]);
     }
     const Real seen = load(through + i);
     for (int c = 0; c < 3; ++c) store(light[c] * seen, view.plane(a.environment, c) + i);

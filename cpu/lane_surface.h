@@ -38,15 +38,21 @@ HWY_INLINE LaneMaterial lane_material(const std::vector<Material>& materials, Re
   return m;
 }
 
+// Which of the tabulated reflectances each lane's material has, -1: none.
+HWY_INLINE Real lane_brdf(const std::vector<float>& of_material, Real index) {
+  return fetch(of_material.data(), max(index, 0.0));
+}
+
 // The surfaces of pixels i .. i + lanes - 1 of a tile. Lanes outside `hit` have a place and a material all the same.
 struct LaneSurface {
   Mask hit;
+  Real index;  // of the material, below 0 without a hit
   LaneMaterial material;
-  Real3 place, normal, mirror;  // mirror: the view ray reflected
+  Real3 place, normal, mirror, viewer;  // mirror: the view ray reflected; viewer: the way back
 
   template <class Algorithm>
   HWY_INLINE LaneSurface(const Algorithm& a, const TileView& view, int i) {
-    const Real index = load(view.plane(a.material) + i);
+    index = load(view.plane(a.material) + i);
     hit = index >= 0.0;
     if (!any_lane(hit)) return;
     material = lane_material(a.materials, index);
@@ -55,6 +61,7 @@ struct LaneSurface {
     const Real depth = select(hit, load(view.plane(a.distance) + i), 0.0);
     place = {d.x * depth, d.y * depth, d.z * depth};
     const Real twice = dot(normal, d) * 2.0;
+    viewer = {-d.x, -d.y, -d.z};
     mirror = {fma(-twice, normal.x, d.x), fma(-twice, normal.y, d.y), fma(-twice, normal.z, d.z)};
   }
 };

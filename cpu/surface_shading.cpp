@@ -17,6 +17,8 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
   const float* through = view.plane(a.transmittance);
   bool glossy = false;
   for (const Material& m : a.materials) glossy |= m.specular.x > 0 || m.specular.y > 0 || m.specular.z > 0;
+  const float* brdfs = a.brdfs ? view.floats(a.brdfs) : nullptr;
+  const std::vector<float> brdf(a.brdf.begin(), a.brdf.end());
 
   for (int i = 0; i < tile_pixels; i += lanes) {
     const LaneSurface surface(a, view, i);
@@ -29,6 +31,7 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
     Real direct[3] = {0.0, 0.0, 0.0}, ambient[3] = {0.0, 0.0, 0.0};
     if (any_lane(hit)) {
       const LaneMaterial& m = surface.material;
+      const Real tabulated = brdfs ? lane_brdf(brdf, surface.index) : Real(-1.0);
       for (std::size_t k = 0; k < a.lights.size(); ++k) {
         const Light& light = a.lights[k];
         Real length, irradiance = 1.0;
@@ -38,6 +41,16 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
           irradiance *= load(view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);
         }
         const Real cosine = dot(surface.normal, l);
+        for (std::size_t b = 0; brdfs && b < a.brdf_at.size(); ++b) {
+          const Real number = static_cast<float>(b);
+          const Mask mine = hit && (tabulated >= number) && (tabulated <= number);
+          if (!any_lane(mine)) continue;
+          const Real3 &n = surface.normal, &v = surface.viewer;
+          Real sent[3];
+          brdf_reflection(brdfs + a.brdf_at[b], n.x, n.y, n.z, l.x, l.y, l.z, v.x, v.y, v.z, sent[0], sent[1], sent[2]);
+          for (int c = 0; c < 3; ++c) direct[c] = select(mine, fma(sent[c] * irradiance, light.power[c], direct[c]), direct[c]);
+        }
+        if (brdfs) irradiance = select(tabulated >= 0.0, 0.0, irradiance);
         const Real diffuse = lambert(cosine) * irradiance;
         for (int c = 0; c < 3; ++c) direct[c] = fma(m.diffuse[c] * diffuse, light.power[c], direct[c]);
         if (glossy) {

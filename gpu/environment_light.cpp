@@ -15,7 +15,8 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
                        " Gaussians is more loops than a shader may run");
   }
   Program& program = r.compute("gpu/environment_light.glsl",
-                               {a.hidden_diffuse ? "WITH_HIDDEN_DIFFUSE" : "", a.hidden_specular ? "WITH_HIDDEN_SPECULAR" : ""});
+                               {a.hidden_diffuse ? "WITH_HIDDEN_DIFFUSE" : "", a.hidden_specular ? "WITH_HIDDEN_SPECULAR" : "",
+                                a.brdf.empty() ? "" : "WITH_BRDFS"});
   r.read(0, a.distance);
   r.read(1, a.normal);
   r.read(2, a.material);
@@ -33,6 +34,16 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
     materials.emplace_back(m.specular, static_cast<float>((static_cast<std::size_t>(k) + 1) * environment_lobe_floats));
   }
   r.storage(0, std::as_bytes(std::span(materials)));
+  // Where the lobes of each material's tabulated reflectance begin, -1: it has none.
+  std::size_t brdfs = 0;
+  if (!a.brdf.empty()) {
+    std::vector<int> lobes;
+    for (const int b : a.brdf) {
+      lobes.push_back(b < 0 ? -1 : static_cast<int>(brdf_lobes_at(shininess.size(), static_cast<std::size_t>(b))));
+      brdfs = std::max(brdfs, static_cast<std::size_t>(b + 1));
+    }
+    r.storage(2, std::as_bytes(std::span(lobes)));
+  }
   // Two vectors a Gaussian: centre and 1 / radius; extinction times radius.
   std::vector<glm::vec4> gaussians;
   for (const GaussianDensity& g : a.gaussians) {
@@ -42,8 +53,9 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
   if (gaussians.empty()) gaussians.emplace_back(0);
   r.storage(1, std::as_bytes(std::span(gaussians)));
   r.view(a.view);
-  const glm::ivec4 knobs(static_cast<int>(a.gaussians.size()), static_cast<int>(environment_image_at(shininess.size())),
-                         static_cast<int>(environment_share_floats), 0);
+  const glm::ivec4 knobs(static_cast<int>(a.gaussians.size()), static_cast<int>(environment_image_at(shininess.size(), brdfs)),
+                         static_cast<int>(environment_share_floats),
+                         static_cast<int>(environment_harmonics_at(shininess.size())));
   r.block(knobs_binding, knobs);
   r.each_pixel(program, a.environment.extent, progress);
 }

@@ -13,12 +13,17 @@ layout(binding = 5) uniform sampler2DArray hidden_specular_image;
 #endif
 layout(binding = 0, rgba32f) uniform writeonly image2DArray environment_image;
 
-layout(std140, binding = 2) uniform Knobs { ivec4 counts; };  // Gaussians, where the image begins, floats of a share
+// Gaussians, where the image begins, floats of a share, where the harmonics begin.
+layout(std140, binding = 2) uniform Knobs { ivec4 counts; };
 
 // Two vectors a material: diffuse; specular and where its lobe's table begins.
 layout(std430, binding = 0) readonly buffer MaterialBlock { vec4 materials[]; };
 // Two vectors a Gaussian: centre and 1 / radius; extinction times radius.
 layout(std430, binding = 1) readonly buffer GaussianBlock { vec4 gaussians[]; };
+#ifdef WITH_BRDFS
+// Where the lobes of each material's reflectance begin, -1: it has none.
+layout(std430, binding = 2) readonly buffer BrdfBlock { int lobes[]; };
+#endif
 
 // Over all directions from a place.
 float mean_depth(vec3 place) {
@@ -61,6 +66,10 @@ void main() {
 #endif
       light += specular_table.xyz * radiance;
     }
+#ifdef WITH_BRDFS
+    int tabulated = lobes[int(index)];
+    if (tabulated >= 0) brdf_environment(counts.w, tabulated, n.x, n.y, n.z, -d.x, -d.y, -d.z, light.x, light.y, light.z);
+#endif
     light *= transmittance(mean_depth(d * texelFetch(distance_image, at, 0).x));
   } else {
     float turns;

@@ -19,6 +19,10 @@ layout(std140, binding = 2) uniform Knobs {
 
 // Seven floats a material: diffuse, specular, shininess.
 layout(std430, binding = 0) readonly buffer MaterialBlock { float materials[]; };
+#ifdef WITH_BRDFS
+// Where the table of each material's reflectance begins, -1: it has none.
+layout(std430, binding = 1) readonly buffer BrdfBlock { int brdfs[]; };
+#endif
 
 void main() {
   ivec2 p = this_pixel();
@@ -47,6 +51,15 @@ void main() {
       float irradiance = directional ? 1.0 : point_irradiance(length, vector_radius.w, ambient_extinction.w);
 #ifdef WITH_LIGHT_TRANSMITTANCE
       irradiance *= texelFetch(light_transmittance_image, ivec3(p, k), 0).x;
+#endif
+#ifdef WITH_BRDFS
+      int t = brdfs[int(index)];
+      if (t >= 0) {
+        vec3 sent;
+        brdf_reflection(t, n.x, n.y, n.z, l.x, l.y, l.z, -d.x, -d.y, -d.z, sent.x, sent.y, sent.z);
+        direct += sent * irradiance * power_directional.xyz;
+        continue;
+      }
 #endif
       float cosine = dot3(n, l);
       direct += diffuse * (lambert(cosine) * irradiance) * power_directional.xyz;

@@ -14,7 +14,10 @@ struct SurfaceShading {
   Image light_transmittance;  // r32f, one layer a light, 0..1; optional: what else stands in the light's way
   Image indirect;             // rgb32f, as SurfaceAirlight makes it; optional: added to `surface`
   Image environment;          // rgb32f, as EnvironmentLight makes it; optional: added to `surface`
+  Buffer brdfs;               // brdf_tables() of common/plan/brdf.h; optional
   std::vector<Material> materials;
+  std::vector<int> brdf;     // number of each material's tabulated reflectance, which stands for it under lights, or -1
+  std::vector<int> brdf_at;  // where each of them begins in `brdfs`
   std::vector<Light> lights;
   View view;
   float extinction = 0;           // [1/m]
@@ -36,7 +39,10 @@ struct SurfaceShading {
     v(in("light_transmittance"), s.light_transmittance);
     v(in("indirect", "W/m^2/sr"), s.indirect);
     v(in("environment", "W/m^2/sr"), s.environment);
+    v(in("brdfs", "1/sr"), s.brdfs);
     v(knob("materials"), s.materials);
+    v(knob("brdf"), s.brdf);
+    v(knob("brdf_at"), s.brdf_at);
     v(knob("lights"), s.lights);
     v(knob("view"), s.view);
     v(knob("extinction", "1/m"), s.extinction);

@@ -15,3 +15,4 @@
 #include "common/formulas/noise.h"
 #include "common/formulas/spherical_harmonics.h"
 #include "common/formulas/environment.h"
+#include "common/formulas/brdf.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "common/formulas/double.h"
+#include "common/plan/brdf.h"
 #include "common/plan/gauss_legendre.h"
 #include "common/plan/hash.h"
 
@@ -132,12 +133,20 @@ void add_lobe(std::vector<float>& table, const EnvironmentHarmonics& from, doubl
 
 EnvironmentHarmonics environment_harmonics(const Environment& e) { return projected(image_table(e)); }
 
-std::vector<float> environment_table(const Environment& e, std::span<const float> shininess) {
+std::vector<float> environment_table(const Environment& e, std::span<const float> shininess,
+                                     std::span<const std::shared_ptr<const Brdf>> brdfs) {
   const std::vector<float> image = image_table(e);
   const EnvironmentHarmonics harmonics = projected(image);
   std::vector<float> table;
   add_lobe(table, harmonics, 1);
   for (const float n : shininess) add_lobe(table, harmonics, static_cast<double>(n));
+  if (!brdfs.empty()) {
+    for (const auto& channel : harmonics) table.insert(table.end(), channel.begin(), channel.end());
+  }
+  for (const auto& brdf : brdfs) {
+    const std::vector<float> lobes = brdf_lobes(*brdf);
+    table.insert(table.end(), lobes.begin(), lobes.end());
+  }
   table.insert(table.end(), image.begin(), image.end());
   return table;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ using EnvironmentHarmonics = std::array<std::array<double, 36>, 3>;
 EnvironmentHarmonics environment_harmonics(const Environment&);
 
 // The table of EnvironmentLight.
-std::vector<float> environment_table(const Environment&, std::span<const float> shininess);
+std::vector<float> environment_table(const Environment&, std::span<const float> shininess,
+                                     std::span<const std::shared_ptr<const Brdf>> brdfs = {});
 
 // The table of EnvironmentAirlight: the environment convolved with a function of the angle between ways before and after.
 std::vector<float> environment_airlight_table(const Environment&, const Zonal&);

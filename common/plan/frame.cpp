@@ -69,6 +69,7 @@ FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
       sky_distance(static_cast<float>(std::min(s.sky_distance, 1e30))),
       ambient(s.medium.empty() ? glm::dvec3(0) : s.medium.ambient),
       geometry(geometry_of(s, geometry_id)),
+      brdfs(brdfs_of(s)),
       next_id_(first_image_id) {
   distance = image("depth", Format::r32f);
   normal = image("normal", Format::rgb32f);
@@ -217,7 +218,10 @@ Image FramePlan::add_indirect() {
                                         .extinction = extinction,
                                         .albedo = medium.albedo,
                                         .indirect = indirect},
-                        "light scattered once on its way to the surfaces"});
+                        brdfs.all.empty()
+                            ? "light scattered once on its way to the surfaces"
+                            : "light scattered once on its way to the surfaces; tabulated reflectances as the Lambert and "
+                              "Phong lobes nearest to them"});
   return indirect;
 }
 
@@ -235,9 +239,24 @@ void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t firs
   shade(way.light_transmittance);
 }
 
+// Absent where no surface has a tabulated reflectance or no light is there to ask for it.
+Buffer FramePlan::add_brdfs() {
+  if (brdfs.all.empty()) return {};
+  if (lights.empty()) {
+    plan.skips.push_back({"tables of reflectances", "no light"});
+    return {};
+  }
+  std::size_t values = 0;
+  for (const auto& b : brdfs.all) values += 3 + b->values.size() + b->values.size() / static_cast<std::size_t>(b->size.z);
+  const Buffer tables{{brdf_id}, values * sizeof(float)};
+  plan.uploads.push_back(table_upload(tables, brdfs.key, [all = brdfs.all] { return brdf_tables(all); }));
+  return tables;
+}
+
 void FramePlan::shade(Image light_transmittance) {
   const Image indirect = add_indirect();
   const Image environment = add_environment();
+  const Buffer tables = add_brdfs();
   plan.steps.push_back({SurfaceShading{.distance = distance,
                                        .normal = normal,
                                        .material = material,
@@ -245,7 +264,10 @@ void FramePlan::shade(Image light_transmittance) {
                                        .light_transmittance = light_transmittance,
                                        .indirect = indirect,
                                        .environment = environment,
-                                       .materials = materials_of(scene),
+                                       .brdfs = tables,
+                                       .materials = brdfs.without_lobes(materials_of(scene)),
+                                       .brdf = tables ? brdfs.of_surface : std::vector<int>{},
+                                       .brdf_at = tables ? brdf_places(brdfs.all) : std::vector<int>{},
                                        .lights = lights,
                                        .view = view,
                                        .extinction = extinction,

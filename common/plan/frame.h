@@ -12,6 +12,7 @@
 
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/shadow_planes.h"
+#include "common/plan/brdf.h"
 #include "common/plan/geometry.h"
 #include "common/plan/plan.h"
 #include "common/scene/scene.h"
@@ -53,6 +54,7 @@ class FramePlan {
   float sky_distance = 0;                // [m], at most 1e30
   glm::vec3 ambient{0, 0, 0};            // [W/m^2/sr] source radiance; 0 without a medium
   Geometry geometry;
+  SceneBrdfs brdfs;  // of the surfaces
 
   // A wanted image is kept, any other only handed on. The technique fills the second row.
   Image distance, normal, material;
@@ -86,6 +88,7 @@ class FramePlan {
   Image add_environment();
   void expect_environment_shadows();
   void add_environment_shadows();
+  Buffer add_brdfs();
   void expect_environment_airlight();
   void add_environment_airlight();
   Image add_lit(Buffer volumes, std::uint32_t id);

@@ -179,12 +179,15 @@ void FramePlan::add_environment_shadows() {
 // Absent without an environment.
 Image FramePlan::add_environment() {
   if (!scene.environment) return {};
-  const std::vector<Material> materials = materials_of(scene);
+  const std::vector<Material> materials = brdfs.without_lobes(materials_of(scene));
   const std::vector<float> shininess = shininess_of(materials);
   const Buffer tables{{environment_id}, 0};
-  plan.uploads.push_back(
-      table_upload(tables, environment_key(*scene.environment, shininess),
-                   [environment = *scene.environment, shininess] { return environment_table(environment, shininess); }));
+  Hash key;
+  key.add(environment_key(*scene.environment, shininess));
+  if (!brdfs.all.empty()) key.add(brdfs.key);
+  plan.uploads.push_back(table_upload(tables, key.value(), [environment = *scene.environment, shininess, all = brdfs.all] {
+    return environment_table(environment, shininess, all);
+  }));
   add_environment_shadows();
   const Image environment = image("surface.environment", Format::rgb32f);
   plan.steps.push_back({EnvironmentLight{.distance = distance,
@@ -195,6 +198,7 @@ Image FramePlan::add_environment() {
                                          .hidden_diffuse = hidden_diffuse_,
                                          .hidden_specular = hidden_specular_,
                                          .materials = materials,
+                                         .brdf = brdfs.all.empty() ? std::vector<int>{} : brdfs.of_surface,
                                          .gaussians = has_surfaces() ? gaussians_of(scene) : std::vector<GaussianDensity>{},
                                          .view = view,
                                          .environment = environment},

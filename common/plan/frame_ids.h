@@ -14,7 +14,8 @@ enum : std::uint32_t {
   environment_id = 7,
   environment_airlight_id = 8,
   hidden_environment_id = 9,
-  first_image_id = 10
+  brdf_id = 10,
+  first_image_id = 11
 };
 
 }  // namespace airlight

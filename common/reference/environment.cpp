@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "common/scene/brdf.h"
+
 namespace airlight {
 
 namespace {
@@ -81,8 +83,21 @@ std::vector<EnvironmentLighting::Patch> EnvironmentLighting::patches(int least) 
   return all;
 }
 
-Integral EnvironmentLighting::reflected(const glm::dvec3& normal, const glm::dvec3& mirror, const Material& material,
+Integral EnvironmentLighting::reflected(const glm::dvec3& normal, const glm::dvec3& mirror, const Surface& surface,
                                         const std::function<double(const glm::dvec3&)>& transmittance) const {
+  if (surface.brdf) {
+    const glm::dvec3 viewer = 2 * glm::dot(normal, mirror) * normal - mirror;
+    const auto sum_of = [&](const std::vector<Patch>& all) {
+      glm::dvec3 sum(0);
+      for (const Patch& p : all) {
+        const glm::dvec3 reflection = tabulated_reflection(*surface.brdf, normal, p.direction, viewer);
+        if (reflection != glm::dvec3(0)) sum += transmittance(p.direction) * reflection * p.power;
+      }
+      return sum;
+    };
+    return extrapolated(sum_of(fine_), sum_of(coarse_));
+  }
+  const Material& material = surface.material;
   const glm::dvec3 diffuse(material.diffuse), specular(material.specular);
   const auto n = static_cast<double>(material.shininess);
   const bool glossy = specular != glm::dvec3(0), by_lobe = glossy && n >= narrow;

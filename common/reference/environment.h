@@ -19,10 +19,11 @@ class EnvironmentLighting {
   // Along a unit direction [W/m^2/sr].
   glm::dvec3 radiance(const glm::dvec3& direction) const;
 
-  // Radiance that a surface sends to the viewer: from all directions above the horizon of its normal, each attenuated by
-  // transmittance(direction) (0..1). Unit vectors; the mirror direction of the view ray. The error is the
-  // difference to half as many directions a degree; images finer than two pixels a degree are finer than those of narrow lobes.
-  Integral reflected(const glm::dvec3& normal, const glm::dvec3& mirror, const Material&,
+  // Radiance that a surface sends to the viewer, by its material or, where it has one, its tabulated reflectance: from all
+  // directions above the horizon of its normal, each attenuated by transmittance(direction) (0..1). Unit
+  // vectors; the mirror direction of the view ray. The error is the difference to half as many directions a degree; images finer
+  // than two pixels a degree are finer than those of narrow lobes.
+  Integral reflected(const glm::dvec3& normal, const glm::dvec3& mirror, const Surface&,
                      const std::function<double(const glm::dvec3&)>& transmittance) const;
 
   // The sum over patches of the sphere of scattered(a directional light from there), which is what a ray scatters of such a light

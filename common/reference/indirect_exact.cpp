@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "common/scene/brdf.h"
+
 namespace airlight {
 
 namespace {
@@ -53,6 +55,7 @@ class Rays {
       : medium_(medium), visibility_(visibility), light_(light), at_(at), shadows_(shadows), tolerance_(tolerance) {
     // As far as triangles that touch this one may seem to be by rounding.
     from_ = 1e-9 * glm::length(at.point);
+    viewer_ = 2 * glm::dot(at.normal, at.mirror) * at.normal - at.mirror;
   }
 
   struct First {
@@ -75,7 +78,8 @@ class Rays {
 
  private:
   glm::dvec3 reflected(const glm::dvec3& direction) const {
-    const Material& m = *at_.material;
+    if (at_.surface->brdf) return tabulated_reflection(*at_.surface->brdf, at_.normal, direction, viewer_);
+    const Material& m = at_.surface->material;
     glm::dvec3 sum = std::max(0.0, glm::dot(at_.normal, direction)) / pi * glm::dvec3(m.diffuse);
     const double cosine = glm::dot(at_.mirror, direction);
     if (m.specular != glm::vec3(0) && cosine > 0) {
@@ -91,6 +95,7 @@ class Rays {
   const SurfacePoint& at_;
   bool shadows_;
   double tolerance_, from_;
+  glm::dvec3 viewer_;
 };
 
 // Half of a plane through the point and the light: directions cos(gamma) toward + sin(gamma) across.
@@ -137,8 +142,8 @@ std::pair<double, double> in_front(double face_angle) {
 
 Integral exact_indirect(const RelativeMedium& medium, const Visibility& visibility, const RelativeLight& light,
                         const SurfacePoint& at, bool shadows, double tolerance) {
-  const Material& material = *at.material;
-  const bool specular = material.specular != glm::vec3(0);
+  const Material& material = at.surface->material;
+  const bool tabulated = at.surface->brdf != nullptr, specular = tabulated || material.specular != glm::vec3(0);
   const glm::dvec3 way = light.way_from(at.point);
   const double length = glm::length(way);
   if (light.power == glm::dvec3(0) || medium.empty() || !(length > 0)) return {};
@@ -152,8 +157,8 @@ Integral exact_indirect(const RelativeMedium& medium, const Visibility& visibili
   e1 = glm::normalize(e1);
   const glm::dvec3 e2 = glm::cross(toward, e1);
 
-  // A lobe is as good as gone 6 deviations of a Gaussian away from its middle.
-  const double deviation = specular ? 1 / std::sqrt(std::max(1.0, static_cast<double>(material.shininess))) : 0;
+  // A lobe is as good as gone 6 deviations of a Gaussian away from its middle; that of a table may be a tenth of a radian wide.
+  const double deviation = tabulated ? 0.1 : specular ? 1 / std::sqrt(std::max(1.0, static_cast<double>(material.shininess))) : 0;
   const double held = light.directional ? 0 : std::asin(std::min(1.0, light.radius / length));
 
   glm::dvec3 sum_of_inner(0), excess(0);

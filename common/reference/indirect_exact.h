@@ -17,15 +17,15 @@ struct SurfacePoint {
   glm::dvec3 normal{0}, face{0};  // of shading and of the triangle, both on the camera's side
   glm::dvec3 mirror{0};           // of the view ray about `normal`
   std::uint32_t triangle = 0;     // that it lies on
-  const Material* material = nullptr;
+  const Surface* surface = nullptr;
 };
 
 // Radiance [W/m^2/sr] that the point sends to the camera's side of what one light scatters toward it once, and its estimated
-// error: the rendering equation over the half space in front of the triangle, `diffuse` / pi times the cosine and `specular`
-// times the normalised Phong lobe, of rays as the camera's: they end at the first surface, whether it casts shadows or not; the
-// medium is lit where no caster stands between it and the light (everywhere without `shadows`), through all of the medium; the
-// distance from a lamp is held at its radius. A ray that meets nothing has no end, whatever `sky_distance` says. `tolerance`:
-// relative, of the whole, 1e-7..1e-1.
+// error: the rendering equation over the half space in front of the triangle, by the tabulated reflectance or `diffuse` / pi
+// times the cosine and `specular` times the normalised Phong lobe, of rays as the camera's: they end at the first surface,
+// whether it casts shadows or not; the medium is lit where no caster stands between it and the light (everywhere without
+// `shadows`), through all of the medium; the distance from a lamp is held at its radius. A ray that meets nothing has no end,
+// whatever `sky_distance` says. `tolerance`: relative, of the whole, 1e-7..1e-1.
 //
 // In polar coordinates about the direction to the light, where the sine takes the pole 1 / sin(gamma) of a lamp away (Biri,
 // Michelin, Arques 2006, III-C); an adaptive quadrature over the azimuth of adaptive quadratures over gamma, cut where the first

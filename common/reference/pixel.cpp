@@ -11,6 +11,7 @@
 #include "common/reference/indirect.h"
 #include "common/reference/indirect_exact.h"
 #include "common/reference/paths.h"
+#include "common/scene/brdf.h"
 
 namespace airlight {
 
@@ -81,10 +82,11 @@ double Reference::irradiance(const Seen& seen, const RelativeLight& light) const
 
 // Of one light [W/m^2/sr].
 Integral Reference::indirect(const Seen& seen, const glm::dvec3& mirror, const RelativeLight& light) const {
-  const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
+  const Surface& surface = scene_.surfaces[static_cast<std::size_t>(seen.surface)];
+  const Material& material = surface.material;
   if (settings_.indirect == Indirect::exact) {
     const glm::dvec3 face = glm::dot(seen.face, seen.direction) > 0 ? -seen.face : seen.face;
-    return exact_indirect(medium_, visibility_, light, {seen.point, seen.normal, face, mirror, seen.triangle, &material},
+    return exact_indirect(medium_, visibility_, light, {seen.point, seen.normal, face, mirror, seen.triangle, &surface},
                           settings_.shadows, settings_.indirect_tolerance);
   }
   if (settings_.indirect == Indirect::off || !(medium_.extinction > 0)) return {};
@@ -100,7 +102,7 @@ Integral Reference::environment(const glm::dvec3& d, const Seen& seen) const {
   LightSource source;
   source.type = LightType::directional;
   return environment_->reflected(seen.normal, d - 2 * glm::dot(d, seen.normal) * seen.normal,
-                                 scene_.surfaces[static_cast<std::size_t>(seen.surface)].material, [&](const glm::dvec3& u) {
+                                 scene_.surfaces[static_cast<std::size_t>(seen.surface)], [&](const glm::dvec3& u) {
                                    source.direction = -u;
                                    const RelativeLight light(source, glm::dvec3(0));
                                    if (settings_.environment_shadows && visibility_.blocked(seen.point, seen.triangle, light))
@@ -117,7 +119,8 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
     pixel.surface = pixel.transmittance * scene_.background + pixel.surface_environment;
     return;
   }
-  const Material& material = scene_.surfaces[static_cast<std::size_t>(seen.surface)].material;
+  const Surface& surface = scene_.surfaces[static_cast<std::size_t>(seen.surface)];
+  const Material& material = surface.material;
   const glm::dvec3 mirror = d - 2 * glm::dot(d, seen.normal) * seen.normal;
   for (const RelativeLight& light : lights_) {
     const Integral scattered = indirect(seen, mirror, light);
@@ -126,6 +129,10 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
     const double e = irradiance(seen, light);
     if (!(e > 0)) continue;
     const glm::dvec3 to_light = glm::normalize(light.way_from(seen.point));
+    if (surface.brdf) {
+      pixel.surface_direct += e * light.power * tabulated_reflection(*surface.brdf, seen.normal, to_light, -d);
+      continue;
+    }
     const double cosine = glm::dot(seen.normal, to_light);
     const glm::dvec3 reflection =
         f64::lambert(cosine) * glm::dvec3(material.diffuse) +

@@ -67,8 +67,11 @@ class Content {
     add(diffuse_part), add(specular), add(shininess);
   }
   void add(const Surface& s) {
-    const auto& [mesh, transform, casts_shadow, material] = s;
+    const auto& [mesh, transform, casts_shadow, material, brdf] = s;
     add(*mesh), add(casts_shadow), add(material), add(transform);
+    if (!brdf) return;
+    const auto& [size, values] = *brdf;
+    add(size), add(values);
   }
   void add(const Scene& scene) {
     const auto& [camera, sky_distance, medium, lights, surfaces, background, environment, technique, settings, hash] = scene;

@@ -193,7 +193,7 @@ Scene load_gltf_scene(const std::string& path, Progress& progress) {
       if (!surface.mesh) continue;
       surface.material = material_of(*file.scene().mMaterials[i]);
       loading.scene.surfaces.push_back(std::move(surface));
-      loading.surfaces.push_back({file.content_hash(), false});
+      loading.surfaces.push_back({file.content_hash(), false, {}});
     }
   }
   loading.scene.hash = scene_hash(loading);

@@ -23,6 +23,7 @@ Material parse_material(const Node&);
 struct LoadedSurface {
   std::string content_hash;
   bool flat = false;
+  std::string brdf_hash;  // of the file that the material names
 };
 struct Loading {
   Scene scene;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/error.h"
+#include "common/scene/brdf_file.h"
 #include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/mesh_check.h"
@@ -93,11 +94,15 @@ glm::dmat4 parse_transform(const Object& o, std::string_view factor) {
 }
 
 Material parse_material(const Node& node) {
-  static constexpr auto known = keys("diffuse", "specular", "shininess");
-  static constexpr std::array<LaterKey, 1> later{{{"brdf", "measured reflectances are"}}};
-  const Object o(node, known, later);
+  static constexpr auto known = keys("diffuse", "specular", "shininess", "brdf");
+  const Object o(node, known);
   Material m;
   const auto diffuse = o.find("diffuse"), specular = o.find("specular");
+  if (o.find("brdf")) {
+    for (const auto& beside : {diffuse, specular, o.find("shininess")}) {
+      if (beside) beside->fail("beside brdf, expected one or the other");
+    }
+  }
   const glm::dvec3 d = diffuse ? diffuse->vec3(limits::fraction) : glm::dvec3(m.diffuse);
   const glm::dvec3 s = specular ? specular->vec3(limits::fraction) : glm::dvec3(m.specular);
   for (int k = 0; k < 3; ++k) {
@@ -113,11 +118,35 @@ Material parse_material(const Node& node) {
   return m;
 }
 
+namespace {
+
+// The file that a material names, if it does; of those read already where it is one of them.
+void add_brdf(const Node& material, const std::string& directory, std::map<std::string, BrdfFile>& read, Surface& surface,
+              std::string& hash) {
+  for (const json::Value& member : material.value().items) {
+    if (member.key != "brdf") continue;
+    const Node node(member, material.file(), material.path() + ".brdf");
+    const std::string path = resolved(directory, node.string());
+    try {
+      if (!read.contains(path)) read[path] = read_brdf_file(path);
+    } catch (const InputError& e) {
+      node.fail(e.what());
+    }
+    const BrdfFile& file = read[path];
+    surface.brdf = file.brdf;
+    surface.material = file.material;
+    hash = file.content_hash;
+  }
+}
+
+}  // namespace
+
 void parse_surfaces(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
   static constexpr auto known =
       keys("mesh", "transform", "translate", "rotate", "scale", "casts_shadow", "material", "normals", "prt");
   static constexpr auto normals_names = keys("auto", "flat");
   std::map<std::pair<std::string, bool>, MeshFile> read;
+  std::map<std::string, BrdfFile> read_brdfs;
   const std::vector<Node> nodes = node.array();
   std::uint64_t triangles = 0, vertices = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -129,7 +158,11 @@ void parse_surfaces(const Node& node, const std::string& directory, Loading& loa
     Surface surface;
     surface.transform = parse_transform(o, "scale");
     if (const auto casts = o.find("casts_shadow")) surface.casts_shadow = casts->boolean();
-    if (const auto material = o.find("material")) surface.material = parse_material(*material);
+    std::string brdf_hash;
+    if (const auto material = o.find("material")) {
+      surface.material = parse_material(*material);
+      add_brdf(*material, directory, read_brdfs, surface, brdf_hash);
+    }
     const auto normals = o.find("normals");
     const bool flat = normals && normals->choice(normals_names) == "flat";
 
@@ -152,7 +185,7 @@ void parse_surfaces(const Node& node, const std::string& directory, Loading& loa
       mesh.fail(fmt::format("{} triangles in all surfaces, expected at most {}", triangles, most_triangles));
     }
     loading.scene.surfaces.push_back(std::move(surface));
-    loading.surfaces.push_back({file.content_hash, flat});
+    loading.surfaces.push_back({file.content_hash, flat, std::move(brdf_hash)});
   }
 }
 

@@ -96,11 +96,22 @@ struct Mesh {
   std::string file = {};  // that it was read from; empty: made in code
 };
 
+// A tabulated isotropic reflectance over the angles of the half vector, as common/formulas/brdf.h takes it: cells of theta_half
+// (of its square root), theta_difference and phi_difference (0..pi), which is fastest; red, green, blue [1/sr], finite, not
+// negative.
+struct Brdf {
+  glm::ivec3 size{2, 2, 2};   // cells of theta_half, theta_difference, phi_difference, each 2 or more
+  std::vector<float> values;  // 3 size.x size.y size.z
+};
+
 struct Surface {
   std::shared_ptr<const Mesh> mesh;
   glm::dmat4 transform{1.0};  // mesh to world, affine, invertible
   bool casts_shadow = true;
   Material material;
+  // How it reflects lights and the environment, in place of the material, which is then what is asked of ambient light and of
+  // light that scatters on its way: brdf_material() of common/scene/brdf.h.
+  std::shared_ptr<const Brdf> brdf = nullptr;
 };
 
 struct Scene {

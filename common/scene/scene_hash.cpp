@@ -85,6 +85,10 @@ std::string scene_hash(const Loading& loading) {
     c.add("flat", loading.surfaces[i].flat ? 1 : 0);
     for (int column = 0; column < 4; ++column) c.add("transform", glm::dvec3(surface.transform[column]));
     c.add("casts_shadow", surface.casts_shadow ? 1 : 0);
+    if (surface.brdf) {  // the material is told by it
+      c.line("brdf", loading.surfaces[i].brdf_hash);
+      continue;
+    }
     c.add("diffuse", surface.material.diffuse);
     c.add("specular", surface.material.specular);
     c.add("shininess", static_cast<double>(surface.material.shininess));

@@ -10,7 +10,8 @@
 namespace airlight {
 
 // What the environment's light adds to an error (tests/truth/environment.cpp): harmonics leave little of matt surfaces and of
-// fog, what surfaces hide of it leaves more (environment_shadows.cpp there). Narrow lobes and other media are not promised.
+// fog, what surfaces hide of it leaves more (environment_shadows.cpp there). Narrow lobes, tabulated reflectances and other media
+// are not promised.
 static double environment_error(const Scene& scene, const KnobValues& knobs) {
   if (!scene.environment) return 0;
   if (!scene.medium.gaussians.empty() || scene.medium.grid) return std::numeric_limits<double>::infinity();
@@ -18,6 +19,7 @@ static double environment_error(const Scene& scene, const KnobValues& knobs) {
   if (hidden && knobs.choice("environment_shadows") == "off") return std::numeric_limits<double>::infinity();
   double error = hidden ? 0.03 : scene.medium.extinction > 0 ? 0.015 : 0.002;
   for (const Surface& s : scene.surfaces) {
+    if (s.brdf) return std::numeric_limits<double>::infinity();
     if (s.material.specular == glm::vec3(0)) continue;
     error = std::max(error, s.material.shininess > 40 ? std::numeric_limits<double>::infinity() : hidden ? 0.06 : 0.03);
   }

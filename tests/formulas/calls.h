@@ -66,6 +66,12 @@ FORMULA void call_environment(int formula, table t, int kind, INPUTS, RESULTS) {
   if (formula == 79) environment_reflection(t, a[0], a[1], a[2], r[0], r[1], r[2]);
 }
 
+FORMULA void call_brdf(int formula, table t, INPUTS, RESULTS) {
+  if (formula == 90) half_angles(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], r[0], r[1], r[2]);
+  if (formula == 91) brdf_reflection(t, a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], r[0], r[1], r[2]);
+  if (formula == 92) brdf_environment(t, t + 108, a[0], a[1], a[2], a[3], a[4], a[5], r[0], r[1], r[2]);
+}
+
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {
   if (formula == 0) r[0] = exp_(a[0]);
   if (formula == 48) r[0] = exp2_(a[0]);
@@ -157,6 +163,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
   if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
   if ((formula >= 70) && (formula < 76)) call_harmonics(formula, t, kind, a, r);
-  if (formula >= 76) call_environment(formula, t, kind, a, r);
+  if ((formula >= 76) && (formula < 90)) call_environment(formula, t, kind, a, r);
+  if ((formula >= 90) && (formula < 95)) call_brdf(formula, t, a, r);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

@@ -1,5 +1,6 @@
 #include "common/plan/environment.h"
 #include "common/plan/surface_airlight_tables.h"
+#include "tests/parity/brdfs.h"
 #include "tests/parity/inputs.h"
 #include "tests/parity/medium.h"
 
@@ -22,7 +23,8 @@ Environment test_environment(Extent extent) {
 }
 
 Case lit(Extent extent, const Environment& environment, const std::vector<Material>& materials, int gaussians,
-         bool partly_hidden = false) {
+         bool partly_hidden = false, const std::vector<std::shared_ptr<const Brdf>>& brdfs = {},
+         const std::vector<int>& brdf = {}) {
   Case c;
   const View view = test_view(extent);
   TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -34,7 +36,7 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
   std::vector<float> through(transmittance.floats());
   for (std::uint32_t i = 0; i < through.size(); ++i) through[i] = static_cast<float>(uniform(4, i));
   c.images.emplace_back(transmittance, std::move(through));
-  const std::vector<float> tables = environment_table(environment, shininess_of(materials));
+  const std::vector<float> tables = environment_table(environment, shininess_of(materials), brdfs);
   const auto bytes = std::as_bytes(std::span(tables));
   const Buffer buffer{{5}, bytes.size()};
   c.buffers.emplace_back(buffer, std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -54,6 +56,7 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
                                .hidden_diffuse = hidden[0],
                                .hidden_specular = hidden[1],
                                .materials = materials,
+                               .brdf = brdf,
                                .gaussians = test_gaussians(gaussians),
                                .view = view,
                                .environment = result},
@@ -73,13 +76,23 @@ Case glossy(Extent e) {
   return lit(e, test_environment({4, 2}), materials, 300);
 }
 
+Case tabulated(Extent e) {
+  return lit(e, test_environment({64, 32}), test_materials(), 12, true,
+             {microfacet_table({8, 8, 8}, 0.6), microfacet_table({24, 12, 12}, 0.3)}, {1, 0});
+}
+Case tabulated_and_matt(Extent e) {
+  return lit(e, test_environment({4, 2}), test_materials(), 0, false, {microfacet_table({24, 12, 12}, 0.4)}, {-1, 0});
+}
+
 }  // namespace
 
 std::span<const NamedCase> environment_light_cases() {
   static constexpr NamedCase cases[] = {{"environment_light/image_12_gaussians", image},
                                         {"environment_light/partly_hidden", partly_hidden},
                                         {"environment_light/constant_clear", constant},
-                                        {"environment_light/shininess_1_and_1000_300_gaussians", glossy}};
+                                        {"environment_light/shininess_1_and_1000_300_gaussians", glossy},
+                                        {"environment_light/two_tabulated_12_gaussians", tabulated},
+                                        {"environment_light/tabulated_and_matt", tabulated_and_matt}};
   return cases;
 }
 

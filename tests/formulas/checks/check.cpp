@@ -23,6 +23,7 @@ std::vector<Check> all_checks() {
   add_noise_checks(checks);
   add_spherical_harmonics_checks(checks);
   add_environment_checks(checks);
+  add_brdf_checks(checks);
   return checks;
 }
 

@@ -90,6 +90,9 @@ enum class Formula : int {
   seen_side = 85,               // as shading_normal -> 1 or -1
   between_corners = 86,         // three values, weights of b and c
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
+  half_angles = 90,             // normal, to the light, to the viewer -> of the half vector, from it, around it
+  brdf_reflection = 91,         // the same; the table: of a reflectance -> red, green, blue
+  brdf_environment = 92,        // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -146,6 +149,7 @@ void add_upsample_checks(std::vector<Check>&);
 void add_noise_checks(std::vector<Check>&);
 void add_spherical_harmonics_checks(std::vector<Check>&);
 void add_environment_checks(std::vector<Check>&);
+void add_brdf_checks(std::vector<Check>&);
 void add_airlight_checks(std::vector<Check>&);
 void add_surface_airlight_checks(std::vector<Check>&);
 
