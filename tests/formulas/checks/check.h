@@ -90,6 +90,10 @@ enum class Formula : int {
   seen_side = 85,               // as shading_normal -> 1 or -1
   between_corners = 86,         // three values, weights of b and c
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
+  splat_before = 95,            // s
+  splat_depth = 96,             // d, c, 1 / support, peak, end -> depth, foot
+  splat_opacity = 97,           // tau
+  direction_weight = 98,        // mu, 1 / reach
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -142,6 +146,7 @@ void add_grid_checks(std::vector<Check>&);
 void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
+void add_splat_checks(std::vector<Check>&);
 void add_upsample_checks(std::vector<Check>&);
 void add_noise_checks(std::vector<Check>&);
 void add_spherical_harmonics_checks(std::vector<Check>&);
