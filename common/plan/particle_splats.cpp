@@ -130,21 +130,22 @@ void add_particle_splats(FramePlan& frame, const NetworkIteration& network, cons
   const Scene& scene = frame.scene;
   const Image scattered = add_homogeneous(frame, std::move(march), first_id);
   const double radius = frame.request.knobs.number("splat_radius");
-  const glm::dvec3 camera = scene.camera.position;
   // Splats are made from particles, lists from splats: each once.
   struct Made {
     std::vector<float> splats;
   };
-  const auto splats = [made = std::make_shared<Made>(), particles = particles.make, lattice, mass = network_mass(scene, lattice),
-                       radius, camera]() -> const std::vector<float>& {
-    if (made->splats.empty()) made->splats = particle_splats(floats_of(particles()), lattice, mass, radius, camera);
+  const auto splats = [made = std::make_shared<Made>(), sampled = particles.make, lattice, world = scene,
+                       radius]() -> const std::vector<float>& {
+    if (made->splats.empty()) {
+      made->splats = particle_splats(floats_of(sampled()), lattice, network_mass(world, lattice), radius, world.camera.position);
+    }
     return made->splats;
   };
   Hash key;
   key.add(std::string_view("splats"));
   key.add(particles.key);
   key.add(radius);
-  for (int axis = 0; axis < 3; ++axis) key.add(camera[axis]);
+  for (int axis = 0; axis < 3; ++axis) key.add(scene.camera.position[axis]);
   const std::size_t floats = splat_fields * static_cast<std::size_t>(network.particle_count);
   frame.plan.uploads.push_back(table_upload({{first_id + 2}, sizeof(float) * floats}, key.value(), splats));
   const Buffer splat_buffer = frame.plan.uploads.back().buffer;
