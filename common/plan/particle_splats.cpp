@@ -1,6 +1,7 @@
 #include "common/plan/particle_splats.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -70,7 +71,9 @@ Knob splat_radius_knob() {
           .least = 0.1,
           .most = 10,
           .choices = {},
-          .meaning = "of image=splats: root of the mean square radius of a splat, beside the distance between particles",
+          .meaning =
+              "of image=splats: root of the mean square radius of a splat, beside the distance between particles, of 1024; of "
+              "others as the 6th root of their number",
           .sweep = {}};
 }
 
@@ -79,6 +82,7 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
   constexpr double pi = 3.141592653589793;
   const std::size_t n = particles.size() / particle_planes;
   const double share = mass / static_cast<double>(n), most_support = frame.unit * lattice_side;
+  const double width = 2 * radius * cube_root(std::sqrt(static_cast<double>(n) / 1024));
   struct Seen {
     glm::dvec3 center;
     double squared;
@@ -101,7 +105,7 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
     const auto extinction = static_cast<double>(particles[particle_extinction * n + s.particle]);
     const double volume = extinction > 0 ? share / extinction : 0;
     double support = extinction > 0 ? least_support : most_support;
-    if (volume > 0) support = std::clamp(2 * radius * cube_root(volume), least_support, std::max(most_support, least_support));
+    if (volume > 0) support = std::clamp(width * cube_root(volume), least_support, std::max(most_support, least_support));
     const double peak = std::min(3 * share / (pi * support * support), most_peak);
     float* one = splats.data() + splat_fields * k;
     for (int axis = 0; axis < 3; ++axis) one[splat_center + axis] = static_cast<float>(s.center[axis]);
