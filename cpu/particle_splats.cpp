@@ -1,6 +1,8 @@
 #include "cpu/particle_splats.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "common/plan/gaussian_bins.h"
 
@@ -129,16 +131,55 @@ void see_splats(const ParticleSplats& a, std::span<const float> splats, std::spa
   });
 }
 
+namespace {
+
+// The rays of a square of the screen, its upper left pixel at (x, y), all lie about its middle one.
+struct SquareOfRays {
+  glm::dvec3 middle;
+  double apart = 0;  // [rad] at most
+
+  SquareOfRays(const View& view, int x, int y) {
+    const double w = view.extent.width, h = view.extent.height, t = static_cast<double>(view.tan_half_fov);
+    const auto ray = [&](double i, double j) {
+      const double across = (2 * (i + 0.5 + static_cast<double>(view.offset.x)) / w - 1) * t * w / h;
+      const double up = (1 - 2 * (j + 0.5 + static_cast<double>(view.offset.y)) / h) * t;
+      return glm::normalize(across * glm::dvec3(view.right) + up * glm::dvec3(view.up) + glm::dvec3(view.forward));
+    };
+    constexpr double last = bin_side - 1;
+    middle = ray(x + 0.5 * last, y + 0.5 * last);
+    // Up to a right angle an angle is no more than 1.12 times its chord.
+    for (const double i : {0.0, last}) {
+      for (const double j : {0.0, last}) apart = std::max(apart, 1.12 * glm::length(ray(x + i, y + j) - middle));
+    }
+  }
+
+  // Whether one of them may meet a splat; rays in single precision as well.
+  bool meets(const float* one) const {
+    const glm::dvec3 c(one[seen_center], one[seen_center + 1], one[seen_center + 2]);
+    const double squared = glm::dot(c, c), foot = glm::dot(c, middle);
+    const double most = 1.0001 / static_cast<double>(one[seen_inverse_support]) + std::sqrt(squared) * (apart + 1e-6);
+    return squared - foot * foot <= most * most;
+  }
+};
+
+}  // namespace
+
 void run_tile(const ParticleSplats& a, const TileView& view, std::span<const float> seen, Simd simd) {
   static_assert(tile_side % bin_side == 0);
   static_assert(splat_inverse_support == static_cast<int>(seen_inverse_support) && splat_peak == static_cast<int>(seen_peak));
   const auto* bins = reinterpret_cast<const std::int32_t*>(view.floats(a.bins));
+  std::vector<std::int32_t> met;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       const int square = (view.tile.y + y) / bin_side * bin_columns(a.view.extent) + (view.tile.x + x) / bin_side;
-      const std::span<const std::int32_t> list(bins + bins[square], bins + bins[square + 1]);
-      entry(HWY_DISPATCH_TABLE(particle_splats), simd)(a, view, list, seen.data(), x, y);
+      // Lists are of boxes about splats, whose corners are many.
+      const SquareOfRays rays(a.view, view.tile.x + x, view.tile.y + y);
+      met.clear();
+      for (const std::int32_t number : std::span(bins + bins[square], bins + bins[square + 1])) {
+        if (rays.meets(seen.data() + seen_fields * static_cast<std::size_t>(number))) met.push_back(number);
+      }
+      entry(HWY_DISPATCH_TABLE(particle_splats), simd)(a, view, met, seen.data(), x, y);
     }
   }
 }
