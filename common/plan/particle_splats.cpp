@@ -89,11 +89,13 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
     std::size_t particle;
   };
   std::vector<Seen> seen;
+  double least_extinction = 0;
   for (std::size_t k = 0; k < n; ++k) {
     glm::dvec3 place;
     for (int axis = 0; axis < 3; ++axis)
       place[axis] = static_cast<double>(particles[(particle_place + static_cast<std::size_t>(axis)) * n + k]);
     const glm::dvec3 center = frame.middle + place * frame.unit - camera;
+    least_extinction += static_cast<double>(particles[particle_extinction * n + k]) / (64 * static_cast<double>(n));
     seen.push_back({center, center.x * center.x + center.y * center.y + center.z * center.z, k});
   }
   std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
@@ -102,7 +104,7 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
   std::vector<float> splats(splat_fields * n, 0.0F);
   for (std::size_t k = 0; k < n; ++k) {
     const Seen& s = seen[k];
-    const auto extinction = static_cast<double>(particles[particle_extinction * n + s.particle]);
+    const double extinction = std::max(static_cast<double>(particles[particle_extinction * n + s.particle]), least_extinction);
     const double volume = extinction > 0 ? share / extinction : 0;
     double support = extinction > 0 ? least_support : most_support;
     if (volume > 0) support = std::clamp(width * cube_root(volume), least_support, std::max(most_support, least_support));

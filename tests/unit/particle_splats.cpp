@@ -41,7 +41,8 @@ TEST(ParticleSplats, ShareTheMass) {
   EXPECT_NEAR(found, mass, 1e-6 * mass);
   const glm::dvec3 camera(0.3, 0.2, 1);
   const std::vector<float> splats = particle_splats(particles, frame, found, 0.8, camera);
-  double sum = 0, worst = 0;
+  double sum = 0, worst = 0, mean = 0;
+  for (std::size_t v = 0; v < n; ++v) mean += static_cast<double>(particles[particle_extinction * n + v]) / n;
   std::vector<bool> seen(n, false);
   for (std::size_t k = 0; k < n; ++k) {
     const auto v = static_cast<std::size_t>(splats[splat_fields * k + splat_particle]);
@@ -49,7 +50,7 @@ TEST(ParticleSplats, ShareTheMass) {
     seen[v] = true;
     const double support = 1 / field(splats, k, splat_inverse_support);
     sum += field(splats, k, splat_peak) * pi * support * support / 3;
-    const double extinction = static_cast<double>(particles[particle_extinction * n + v]);
+    const double extinction = std::max(static_cast<double>(particles[particle_extinction * n + v]), mean / 64);
     worst = std::max(worst, std::fabs(support / (1.6 * std::pow(n / 1024.0, 1 / 6.0) * std::cbrt(found / n / extinction)) - 1));
     if (k > 0) {
       EXPECT_GE(glm::length(center(splats, k)), glm::length(center(splats, k - 1)) * (1 - 1e-6));
@@ -72,7 +73,12 @@ TEST(ParticleSplats, OfOnePlaceHaveAnOrder) {
     EXPECT_GT(glm::length(center(splats, k)), 0);
     EXPECT_TRUE(std::isfinite(splats[splat_fields * k + splat_peak]));
   }
-  EXPECT_NEAR(1 / field(splats, 3, splat_inverse_support), 0.01 * lattice_side, 1e-4) << "none is wider";
+  const double wide = field(splats, 0, splat_inverse_support) / field(splats, 3, splat_inverse_support);
+  EXPECT_NEAR(wide, std::cbrt(64 * 30 / 29.0), 1e-5) << "none is wider";
+  for (std::size_t k = 0; k < n; ++k) particles[particle_extinction * n + k] = 0;
+  const std::vector<float> nothing = particle_splats(particles, frame, 0, 1, {1.05, 2, 3});
+  EXPECT_EQ(nothing[splat_peak], 0);
+  EXPECT_NEAR(1 / field(nothing, 0, splat_inverse_support), 0.01 * lattice_side, 1e-4) << "half the lattice";
 }
 
 // A ParticleSplats with inputs of its own, and what comes out.
