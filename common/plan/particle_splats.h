@@ -16,9 +16,10 @@ Knob splat_radius_knob();
 
 // A splat a particle, as common/algorithms/particle_splats.h lays them out, the nearest to `camera` [m] first, of equally near
 // ones that of the lower number. Each stands for an equal share of `mass` (extinction integrated over the medium [m^2]), spread
-// over 2 `radius` (n / 1024)^(1/6) times the distance between n particles there, (share / extinction)^(1/3), but at most over
-// half the lattice. (Not in proportion to that distance: the image is of two dimensions, so that the noise of splats on a ray
-// would fall by n^(-1/6) alone, the blur by n^(-2/3). So both fall by n^(-1/3).)
+// over 2 `radius` (n / 1024)^(1/6) times the distance between n particles there, (share / extinction)^(1/3), at most over four
+// times what that is of their mean extinction (the few that are thinner would cover as much of the screen as a fifth of all), nor
+// more than half the lattice. (Not in proportion to that distance: the image is of two dimensions, so that the noise of splats on
+// a ray would fall by n^(-1/6) alone, the blur by n^(-2/3). So both fall by n^(-1/3).)
 std::vector<float> particle_splats(const std::vector<float>& particles, const NetworkFrame&, double mass, double radius,
                                    const glm::dvec3& camera);
 
