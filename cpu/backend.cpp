@@ -10,6 +10,7 @@
 #include "cpu/held_images.h"
 #include "cpu/kernels.h"
 #include "cpu/parallel.h"
+#include "cpu/particle_splats.h"
 #include "cpu/shadow_planes.h"
 #include "cpu/surface_visibility.h"
 
@@ -46,6 +47,7 @@ struct CpuBackend::State {
   std::map<Handle, HeldBuffer> buffers;
   std::map<std::size_t, Rasteriser> rasterisers;  // by position of their step
   std::map<std::size_t, ShadowRasteriser> shadow_rasterisers;
+  std::map<std::size_t, std::vector<float>> splats;
   std::vector<Scratch> scratch;  // by worker
   int threads_that_ran = 0;
 
@@ -82,6 +84,10 @@ struct CpuBackend::State {
   void prepare(std::size_t index, const Shadowed& a) {
     if (a.volumes) shadow_rasterisers[index].prepare(a.view, a.lights.size(), buffer(a.volumes), simd, workers);
   }
+  void prepare(std::size_t index, const ParticleSplats& a) {
+    see_splats(a, buffer_of<float>(a.splats), buffer_of<float>(a.particle_sources), buffer_of<std::int32_t>(a.lines), workers,
+               simd, splats[index]);
+  }
   template <class PixelStep>
   void prepare(std::size_t, const PixelStep&) {}
 
@@ -92,6 +98,9 @@ struct CpuBackend::State {
   }
   void run_tile(std::size_t index, const ShadowPlanes& a, const TileView& view, int worker) {
     shadow_rasterisers.at(index).run_tile(a, view, worker);
+  }
+  void run_tile(std::size_t index, const ParticleSplats& a, const TileView& view, int) {
+    airlight::run_tile(a, view, splats.at(index), simd);
   }
   template <class PixelStep>
   void run_tile(std::size_t, const PixelStep& a, const TileView& view, int) {

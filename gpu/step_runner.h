@@ -108,6 +108,7 @@ void run(const ParticleLight&, StepRunner&, const Progress&);
 void run(const NetworkIteration&, StepRunner&, const Progress&);
 void run(const SourceFunction&, StepRunner&, const Progress&);
 void run(const RayMarch&, StepRunner&, const Progress&);
+void run(const ParticleSplats&, StepRunner&, const Progress&);
 void run(const GaussianAirlight&, StepRunner&, const Progress&);
 void run(const ProjectedGaussians&, StepRunner&, const Progress&);
 void run(const LightMarch&, StepRunner&, const Progress&);

@@ -18,6 +18,7 @@
 #include "common/algorithms/network_iteration.h"
 #include "common/algorithms/optical_depth_propagation.h"
 #include "common/algorithms/particle_light.h"
+#include "common/algorithms/particle_splats.h"
 #include "common/algorithms/projected_gaussians.h"
 #include "common/algorithms/ray_march.h"
 #include "common/algorithms/shadow_planes.h"
@@ -34,8 +35,8 @@ namespace airlight {
 using Algorithm =
     std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight, SurfaceShading,
                  HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
-                 NetworkIteration, SourceFunction, RayMarch, GaussianAirlight, ProjectedGaussians, LightMarch, Subsample,
-                 DepthAwareUpsample, FillAirlight, EnvironmentAirlight, HiddenEnvironment, Compose>;
+                 NetworkIteration, SourceFunction, RayMarch, ParticleSplats, GaussianAirlight, ProjectedGaussians, LightMarch,
+                 Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight, HiddenEnvironment, Compose>;
 
 struct Step {
   Algorithm what;

@@ -7,10 +7,16 @@ namespace airlight {
 
 // Particles stand on a lattice about the medium's middle, so that which of them a line meets, and in what order, is integer
 // arithmetic on every machine: coordinates are -lattice_side..lattice_side times `unit` of the step. A plane of floats each:
-// three coordinates, albedo, emission over extinction [W/m^2/sr] (rgb).
+// three coordinates, albedo, emission over extinction [W/m^2/sr] (rgb), extinction [1/m].
 constexpr int lattice_side = 8191;
 constexpr int lattice_length = 8192;  // of the vectors of a line
-enum ParticlePlane : int { particle_place = 0, particle_albedo = 3, particle_glow = 6, particle_planes = 9 };
+enum ParticlePlane : int {
+  particle_place = 0,
+  particle_albedo = 3,
+  particle_glow = 6,
+  particle_extinction = 9,
+  particle_planes = 10
+};
 
 // A bundle of parallel lines, each of which light takes both ways: int32[16]. Direction, and two vectors across it; where the
 // window begins, the size of its pixels, in lattice units times lattice_length, and how many there are, across and down.

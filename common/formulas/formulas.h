@@ -11,6 +11,7 @@
 #include "common/formulas/marching.h"
 #include "common/formulas/depth_volume.h"
 #include "common/formulas/network.h"
+#include "common/formulas/splats.h"
 #include "common/formulas/upsample.h"
 #include "common/formulas/noise.h"
 #include "common/formulas/spherical_harmonics.h"

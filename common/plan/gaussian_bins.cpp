@@ -68,7 +68,8 @@ bool in_view(const View& view, const GaussianDensity& g) {
   return box.columns.least <= box.columns.most && box.rows.least <= box.rows.most;
 }
 
-std::vector<std::int32_t> gaussian_bins(const View& view, std::span<const GaussianDensity> gaussians) {
+std::vector<std::int32_t> gaussian_bins(const View& view, std::span<const GaussianDensity> gaussians, std::string_view setting,
+                                        std::string_view what) {
   const auto columns = static_cast<std::size_t>(bin_columns(view.extent)), rows = static_cast<std::size_t>(bin_rows(view.extent));
   std::vector<Box> boxes;
   std::vector<std::int64_t> counts(columns * rows, 0);
@@ -83,8 +84,8 @@ std::vector<std::int32_t> gaussian_bins(const View& view, std::span<const Gaussi
     boxes.push_back(box_of(view, g));
     each(boxes.back(), [&](std::size_t square) { ++counts[square], ++all; });
     if (all > most_listed) {
-      throw InputError("setting light_path: " + std::to_string(gaussians.size()) +
-                       " Gaussians cover more squares of 16 x 16 pixels than 2^28 together, expected a smaller resolution");
+      throw InputError("setting " + std::string(setting) + ": " + std::to_string(gaussians.size()) + " " + std::string(what) +
+                       " cover more squares of 16 x 16 pixels than 2^28 together, expected a smaller resolution");
     }
   }
   std::vector<std::int32_t> bins(counts.size() + 1 + static_cast<std::size_t>(all));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/algorithms/medium.h"
@@ -20,7 +21,9 @@ inline int bin_rows(Extent e) { return (e.height + bin_side - 1) / bin_side; }
 bool in_view(const View&, const GaussianDensity&);
 
 // Where the list of each square begins among these numbers, and where the last ends; then the lists, each ascending: Gaussians
-// the box of whose reach on the screen touches the square. Throws InputError where lists would be longer than 2^28 in all.
-std::vector<std::int32_t> gaussian_bins(const View&, std::span<const GaussianDensity>);
+// the box of whose reach on the screen touches the square. Throws InputError where lists would be longer than 2^28 in all, whose
+// message names the setting and what is listed.
+std::vector<std::int32_t> gaussian_bins(const View&, std::span<const GaussianDensity>, std::string_view setting = "light_path",
+                                        std::string_view what = "Gaussians");
 
 }  // namespace airlight

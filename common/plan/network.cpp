@@ -144,6 +144,8 @@ NetworkFrame network_frame(const MediumBox& box) {
   return {box.corner + 0.5 * size, 0.5 * glm::length(size) / (lattice_side - 1)};
 }
 
+double network_mass(const Scene& scene, const NetworkFrame& frame) { return ParticleSampler(scene, frame).total(); }
+
 std::vector<float> network_particles(const Scene& scene, const NetworkFrame& frame, int count) {
   const auto n = static_cast<std::size_t>(count);
   ParticleSampler sampler(scene, frame);
@@ -152,6 +154,7 @@ std::vector<float> network_particles(const Scene& scene, const NetworkFrame& fra
     const glm::ivec3 place = sampler.place(k, n);
     const Mixture m = sampler.mixture(place);
     const double scale = m.extinction > 0 ? 1 / m.extinction : 0;
+    planes[particle_extinction * n + k] = static_cast<float>(m.extinction);
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(c);
       planes[(particle_place + channel) * n + k] = static_cast<float>(place[c]);

@@ -20,6 +20,9 @@ struct NetworkFrame {
 };
 NetworkFrame network_frame(const MediumBox&);
 
+// Extinction of the scene's Gaussians and grid, integrated over space [m^2].
+double network_mass(const Scene&, const NetworkFrame&);
+
 // `count` particles of the scene's Gaussians and grid, as common/algorithms/network.h lays them out: proportional to extinction,
 // by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones.
 std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count);

@@ -7,6 +7,7 @@
 
 #include "common/plan/frame.h"
 #include "common/plan/network.h"
+#include "common/plan/particle_splats.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
 #include "common/plan/voxels.h"
@@ -39,12 +40,18 @@ enum : std::uint32_t {
   particle_sources_id,
   residuals_id,
   sources_id,
-  samples_id
+  samples_id,
+  splats_id = samples_id + sampled_airlight_ids
 };
+
+bool splatted(const KnobValues& knobs) { return knobs.choice("image") == "splats"; }
 
 // The steps before the view ray, and what RayMarch reads of them.
 struct NetworkPlan {
-  Buffer sources;
+  NetworkFrame lattice;
+  Plan::Upload particles;
+  NetworkIteration iteration;
+  Buffer sources;             // absent where particles are splatted
   glm::dvec3 first{0, 0, 0};  // [m] in the world
   glm::dvec3 spacing{1, 1, 1};
 };
@@ -112,6 +119,11 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   frame.plan.steps.push_back({iteration, "light from particle to particle, an order of scattering a round"});
 
   NetworkPlan made;
+  made.lattice = lattice, made.particles = uploads[0], made.iteration = iteration;
+  if (splatted(knobs)) {
+    frame.plan.skips.push_back({"source_function", "image = splats: the particles themselves are seen"});
+    return made;
+  }
   SourceFunction source{.particles = network.particles,
                         .lines = network.lines,
                         .links = network.links,
@@ -151,33 +163,37 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const bool any = !gaussians.empty() || grid;
   if (any) network = add_network(frame, voxels);
   constexpr int light_steps = 16;
-  frame.plan.steps.push_back({RayMarch{.distance = frame.distance,
-                                       .voxels = voxels,
-                                       .volumes = volumes,
-                                       .depths = {},
-                                       .sources = network.sources,
-                                       .lights = frame.lights,
-                                       .depth_volumes = {},
-                                       .gaussians = gaussians,
-                                       .grid = grid,
-                                       .view = frame.view,
-                                       .phase = medium.phase,
-                                       .extinction = frame.extinction,
-                                       .sky_distance = frame.sky_distance,
-                                       .albedo = medium.albedo,
-                                       .ambient = frame.ambient,
-                                       .emission = medium.emission,
-                                       .steps = static_cast<int>(request.knobs.number("steps")),
-                                       .light_steps = medium.grid ? light_steps : 1,
-                                       .light_depth = LightDepth::analytic,
-                                       .source_first = glm::vec3(network.first - scene.camera.position),
-                                       .source_spacing = glm::vec3(network.spacing),
-                                       .airlight = frame.airlight,
-                                       .per_light = frame.per_light,
-                                       .transmittance = frame.transmittance,
-                                       .optical_depth = frame.optical_depth},
-                              "light scattered once along the view ray, and that of the particles"});
-  sample_airlight(frame, samples_id);
+  const RayMarch march{.distance = frame.distance,
+                       .voxels = voxels,
+                       .volumes = volumes,
+                       .depths = {},
+                       .sources = network.sources,
+                       .lights = frame.lights,
+                       .depth_volumes = {},
+                       .gaussians = gaussians,
+                       .grid = grid,
+                       .view = frame.view,
+                       .phase = medium.phase,
+                       .extinction = frame.extinction,
+                       .sky_distance = frame.sky_distance,
+                       .albedo = medium.albedo,
+                       .ambient = frame.ambient,
+                       .emission = medium.emission,
+                       .steps = static_cast<int>(request.knobs.number("steps")),
+                       .light_steps = medium.grid ? light_steps : 1,
+                       .light_depth = LightDepth::analytic,
+                       .source_first = glm::vec3(network.first - scene.camera.position),
+                       .source_spacing = glm::vec3(network.spacing),
+                       .airlight = frame.airlight,
+                       .per_light = frame.per_light,
+                       .transmittance = frame.transmittance,
+                       .optical_depth = frame.optical_depth};
+  if (any && splatted(request.knobs)) {
+    add_particle_splats(frame, network.iteration, network.particles, network.lattice, march, splats_id);
+  } else {
+    frame.plan.steps.push_back({march, "light scattered once along the view ray, and that of the particles"});
+    sample_airlight(frame, samples_id);
+  }
   LightMarch way;
   way.voxels = voxels, way.gaussians = gaussians, way.grid = grid;
   way.light_steps = medium.grid ? light_steps : 1, way.light_depth = LightDepth::analytic;
@@ -256,6 +272,17 @@ Technique illumination_network() {
               .choices = {},
               .meaning = "steps along the view ray in each stretch of medium",
               .sweep = {}},
+             {.name = "image",
+              .kind = Knob::Kind::choice,
+              .standard = "source",
+              .least = 0,
+              .most = 0,
+              .choices = {"source", "splats"},
+              .meaning = "what is seen: the particles' source function along the view ray, light scattered once exactly, or the "
+                         "particles, sorted, splatted and blended, as published",
+              .sweep = {},
+              .baselines = {"splats"}},
+             splat_radius_knob(),
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),

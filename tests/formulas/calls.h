@@ -163,7 +163,11 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
   if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
   if ((formula >= 70) && (formula < 76)) call_harmonics(formula, t, kind, a, r);
-  if ((formula >= 76) && (formula < 90)) call_environment(formula, t, kind, a, r);
+  if ((formula >= 76) && (formula <= 80)) call_environment(formula, t, kind, a, r);
   if ((formula >= 90) && (formula < 95)) call_brdf(formula, t, a, r);
+  if (formula == 95) r[0] = splat_before(a[0]);
+  if (formula == 96) r[0] = splat_depth(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], r[1]);
+  if (formula == 97) r[0] = splat_opacity(a[0]);
+  if (formula == 98) r[0] = direction_weight(a[0], a[1]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }

@@ -20,6 +20,7 @@ std::vector<NamedCase> all_cases() {
                           network_iteration_cases(),
                           source_function_cases(),
                           ray_march_cases(),
+                          particle_splats_cases(),
                           gaussian_airlight_cases(),
                           projected_gaussians_cases(),
                           light_march_cases(),

@@ -44,6 +44,7 @@ std::span<const NamedCase> particle_light_cases();
 std::span<const NamedCase> network_iteration_cases();
 std::span<const NamedCase> source_function_cases();
 std::span<const NamedCase> ray_march_cases();
+std::span<const NamedCase> particle_splats_cases();
 std::span<const NamedCase> gaussian_airlight_cases();
 std::span<const NamedCase> projected_gaussians_cases();
 std::span<const NamedCase> light_march_cases();

@@ -91,9 +91,13 @@ inline RenderSettings network_settings(const Scene& scene, const NetworkSize& si
   return settings;
 }
 
-inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, const NetworkSize& size) {
+// `seen`: the knob `image`.
+inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, const NetworkSize& size,
+                                  const std::string& seen = "source") {
   Renderer renderer({.backend = "cpu"});
-  const Frame frame = renderer.render(scene, network_settings(scene, size, truth.extent));
+  RenderSettings settings = network_settings(scene, size, truth.extent);
+  settings.knobs.emplace_back("image", seen);
+  const Frame frame = renderer.render(scene, settings);
   const HostImage& image = frame.image("beauty");
   double squares = 0, mean = 0;
   const auto pixels = static_cast<double>(truth.values.size());

@@ -19,6 +19,7 @@ std::vector<Check> all_checks() {
   add_marching_checks(checks);
   add_depth_volume_checks(checks);
   add_network_checks(checks);
+  add_splat_checks(checks);
   add_upsample_checks(checks);
   add_noise_checks(checks);
   add_spherical_harmonics_checks(checks);

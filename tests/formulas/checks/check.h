@@ -93,6 +93,10 @@ enum class Formula : int {
   half_angles = 90,             // normal, to the light, to the viewer -> of the half vector, from it, around it
   brdf_reflection = 91,         // the same; the table: of a reflectance -> red, green, blue
   brdf_environment = 92,        // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue
+  splat_before = 95,            // s
+  splat_depth = 96,             // d, c, 1 / support, peak, end -> depth, foot
+  splat_opacity = 97,           // tau
+  direction_weight = 98,        // mu, 1 / reach
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
@@ -145,6 +149,7 @@ void add_grid_checks(std::vector<Check>&);
 void add_gaussian_checks(std::vector<Check>&);
 void add_marching_checks(std::vector<Check>&);
 void add_network_checks(std::vector<Check>&);
+void add_splat_checks(std::vector<Check>&);
 void add_upsample_checks(std::vector<Check>&);
 void add_noise_checks(std::vector<Check>&);
 void add_spherical_harmonics_checks(std::vector<Check>&);
