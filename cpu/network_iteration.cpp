@@ -138,6 +138,19 @@ void add_weights(const Links& links, float* weights) {
   });
 }
 
+// Sums over sources, in an order that does not depend on the number of threads.
+struct Change {
+  double change = 0, sum = 0;
+  void add(float before, float now) {
+    change += static_cast<double>(std::fabs(now - before));
+    sum += static_cast<double>(now);
+  }
+  void add(const Change& other) {
+    change += other.change;
+    sum += other.sum;
+  }
+};
+
 // The iteration's state, and what both kinds of phase function have in common.
 struct Iteration {
   const NetworkIteration& a;
@@ -161,29 +174,16 @@ struct Iteration {
   Links links_of(std::size_t l) const { return {a.shape(), links, lines + l * line_fields, l}; }
   float albedo(std::size_t v, std::size_t c) const { return particles[(particle_albedo + c) * n + v]; }
 
-  // round() makes new sources, and gives the largest change and the largest source.
+  // round() makes new sources, and gives their change.
   template <class Round>
   void iterate(Round&& round) {
     std::fill_n(residuals, 1 + static_cast<std::size_t>(a.iterations), 0.0F);
     for (int k = 0; k < a.iterations; ++k) {
-      const auto [change, largest] = round();
-      const float residual = change / std::max(largest, 1e-30F);
+      const Change change = round();
       residuals[0] = static_cast<float>(k + 1);
-      residuals[1 + k] = residual;
-      if (residual <= a.tolerance) break;
+      residuals[1 + k] = static_cast<float>(change.change / std::max(change.sum, 1e-30));
+      if (a.left_out({residuals + 1, static_cast<std::size_t>(k + 1)}) <= a.tolerance) break;
     }
-  }
-};
-
-struct Change {
-  float change = 0, largest = 0;
-  void add(float before, float now) {
-    change = std::max(change, std::fabs(now - before));
-    largest = std::max(largest, now);
-  }
-  void add(const Change& other) {
-    change = std::max(change, other.change);
-    largest = std::max(largest, other.largest);
   }
 };
 

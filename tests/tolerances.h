@@ -115,6 +115,7 @@ inline constexpr Tolerance tolerances[] = {
      "the peak, and the mean of the paths is known to 0.01"},
     {"network_dense", 1e-5, "of the largest value: the iteration's sums of floats against elimination in double"},
     {"network_energy", 2e-6, "relative: out against in at albedo 1, after rounds until nothing but rounding changes"},
+    {"network_left_out", 0.15, "relative: of what rounds are told to leave out, of which few are known to be a geometric series yet"},
     {"network_line_depth", 2.5e-5, "absolute: of each of two Gaussians a chord below 1e-5 is left out, the rest is rounding"},
     {"network_moments", 4e-3,
      "[m, m^2] of 4096 low-discrepancy points in Gaussians of 0.5 and 0.7 m: random ones would be off by 1e-2"},
