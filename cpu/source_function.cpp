@@ -17,13 +17,13 @@ struct Beams {
   std::vector<std::int32_t> along;       // a record, of its particle
 
   void make(const Links& links, const std::int32_t* line, const float* particles, const float* source, const float* source_back,
-            const NetworkShape& shape) {
+            const float* sky, const NetworkShape& shape) {
     forward.resize(4 * shape.records());
     backward.resize(4 * shape.records());
     along.resize(shape.records());
     links.each_list([&](std::size_t at, std::size_t n) {
       const auto sweep = [&](bool back, const float* sent, float* out) {
-        Rgb beam;
+        Rgb beam = rgb_at(sky, back ? 1 : 0);
         for (std::size_t step = 0; step <= n; ++step) {
           const std::size_t k = at + (back ? n - step : step);
           const Rgb a = rgb_at(sent, links.particle_at(k == at ? k : k - 1));
@@ -61,18 +61,22 @@ void add_scaled(float (&sum)[3], const float* beam, float weight) {
   for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * beam[c];
 }
 
-// Adds what arrives at the node along one bundle, each way with its weight.
-void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const Node& node, float forward, float backward,
-               float (&sum)[3]) {
+// Adds what arrives at the node along one bundle, each way with its weight. `sky`: what does both ways where nothing is met.
+void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const float* sky, const Node& node,
+               float forward, float backward, float (&sum)[3]) {
+  const auto nothing_met = [&] {
+    add_scaled(sum, sky, forward);
+    add_scaled(sum, sky + 4, backward);
+  };
   std::size_t pixel[2];
   for (std::size_t k = 0; k < 2; ++k) {
     const std::int32_t at = dot_of(line + (k == 0 ? line_across : line_down), node) - line[line_begin + k];
-    if (at < 0 || at / line[line_pixel + k] >= line[line_pixels + k]) return;
+    if (at < 0 || at / line[line_pixel + k] >= line[line_pixels + k]) return nothing_met();
     pixel[k] = static_cast<std::size_t>(at / line[line_pixel + k]);
   }
   const std::size_t c = pixel[0] + static_cast<std::size_t>(line[line_pixels]) * pixel[1];
   const auto first = static_cast<std::size_t>(links.begin[c]), n = static_cast<std::size_t>(links.begin[c + 1]) - first;
-  if (n == 0) return;
+  if (n == 0) return nothing_met();
   const std::size_t at = first + c;
   const std::int32_t here = dot_of(line + line_direction, node);
   const auto begin = beams.along.begin() + static_cast<std::ptrdiff_t>(at);
@@ -83,6 +87,7 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
   if (k == 0) {
     const auto away = static_cast<float>(begin[0] - here);
     const float share = away / (away + width);
+    add_scaled(sum, sky, forward * share);
     add_scaled(sum, along, forward * (1 - share));
     add_scaled(sum, against + 4, backward * (1 - share));
     add_scaled(sum, against, backward * share);
@@ -94,6 +99,7 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
     add_scaled(sum, along + 4 * (n - 1), forward * (1 - share));
     add_scaled(sum, along + 4 * n, forward * share);
     add_scaled(sum, against + 4 * n, backward * (1 - share));
+    add_scaled(sum, sky + 4, backward * share);
     return;
   }
   const std::int32_t before = begin[static_cast<std::ptrdiff_t>(k) - 1], after = begin[static_cast<std::ptrdiff_t>(k)];
@@ -121,6 +127,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
   const std::int32_t* lines = view.integers(a.lines);
   const float *particles = view.floats(a.particles), *sent = view.floats(a.particle_sources);
   std::vector<float> sums(4 * nx * ny * nz, 0.0F);  // rgb and weights
+  std::vector<float> sky(4 * 2 * shape.lines, 0.0F);
+  if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
   std::vector<Beams> beams(chunk);
   for (std::size_t first = 0; first < shape.lines; first += chunk) {
     const std::size_t count = std::min(chunk, shape.lines - first);
@@ -128,7 +136,7 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
       const std::size_t l = first + static_cast<std::size_t>(n), of_a_way = isotropic ? 0 : 4 * shape.particles;
       const std::int32_t* line = lines + line_fields * l;
       beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), line, l), line, particles,
-                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), shape);
+                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), sky.data() + 8 * l, shape);
     });
     workers.each(static_cast<int>(ny * nz), [&](int row, int) {
       const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny;
@@ -155,7 +163,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
             backward = f32::phase_value(kind, a.phase.g, -mu).v;
           }
           out[3] += forward + backward;
-          add_beams(Links(shape, view.floats(a.links), line, first + n), line, beams[n], node, forward, backward, sum);
+          add_beams(Links(shape, view.floats(a.links), line, first + n), line, beams[n], sky.data() + 8 * (first + n), node,
+                    forward, backward, sum);
         }
         std::copy_n(sum, 3, out);
       }

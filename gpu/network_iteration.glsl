@@ -9,18 +9,27 @@
 layout(std430, binding = 0) readonly buffer LinkBuffer { float links[]; };
 layout(std430, binding = 3) buffer SourceBuffer { vec4 sources[]; };
 layout(std430, binding = 4) buffer TakenBuffer { vec4 taken[]; };  // of each line and particle, or each direction and particle; a: a source's change
-layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // change and sum of each particle, weights, shares
+layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // change and sum of each particle, weights, shares, sky
 layout(std430, binding = 6) readonly buffer FirstBuffer { vec4 first_sources[]; };
 layout(std430, binding = 7) buffer MatrixBuffer { float matrix_values[]; };
 
 int weight_at(int line, int v) { return 2 * particle_count + line * particle_count + v; }
 int share_at(int k) { return 2 * particle_count + line_count * particle_count + k; }
+#ifdef ISOTROPIC
+int sky_at(int d) { return share_at(particle_count) + 4 * d; }
+#else
+int sky_at(int d) { return share_at(2 * line_count * particle_count) + 4 * d; }
+#endif
+vec3 sky_of(int d) {
+  int k = sky_at(d);
+  return vec3(uintBitsToFloat(words[k]), uintBitsToFloat(words[k + 1]), uintBitsToFloat(words[k + 2]));
+}
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
 float area_of(int line) { return float(line_field(line, 11)) * float(line_field(line, 12)) * 9.094947017729282e-13; }  // 2^-40
 
 // Light along one way of a list of n particles from `record` on; what they take is set, or added to.
 void sweep(int line, int record, int n, bool backward, int source, int to, bool adds) {
-  vec3 beam = vec3(0.0);
+  vec3 beam = sky_of(2 * line + (backward ? 1 : 0));
   vec3 waiting = vec3(0.0);  // of the particle that the last link led to
   float area = area_of(line);
   for (int step = 0; step <= n; ++step) {

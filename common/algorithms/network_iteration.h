@@ -19,6 +19,8 @@ namespace airlight {
 // particle's opacity is that of the link before it in whatever direction, and energy is lost.
 struct NetworkIteration {
   Buffer particles, lines, links, first;
+  Buffer sky;  // of an environment, optional: what light begins with beyond the lists' ends [W/m^2/sr], laid out as `first` of
+               // one particle
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
@@ -63,6 +65,7 @@ struct NetworkIteration {
     v(in("lines"), s.lines);
     v(in("links"), s.links);
     v(in("first", "W/m^2/sr"), s.first);
+    v(in("sky", "W/m^2/sr"), s.sky);
     v(knob("phase"), s.phase);
     v(knob("particle_count"), s.particle_count);
     v(knob("line_count"), s.line_count);

@@ -14,7 +14,7 @@ namespace airlight {
 // list linear between what it is at them; light straight from the lights is not in it. (The paper splats the particles, which is
 // noise, and means of the particles about a place would be too dark beside a light, where most of them lie deeper in the medium.)
 struct SourceFunction {
-  Buffer particles, lines, links, particle_sources;  // as NetworkIteration's
+  Buffer particles, lines, links, particle_sources, sky;  // as NetworkIteration's
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
@@ -42,6 +42,7 @@ struct SourceFunction {
     v(in("lines"), s.lines);
     v(in("links"), s.links);
     v(in("particle_sources", "W/m^2/sr"), s.particle_sources);
+    v(in("sky", "W/m^2/sr"), s.sky);
     v(knob("phase"), s.phase);
     v(knob("particle_count"), s.particle_count);
     v(knob("line_count"), s.line_count);
