@@ -5,10 +5,13 @@
 #include <limits>
 #include <string>
 
+#include "common/plan/environment.h"
 #include "common/plan/frame.h"
+#include "common/plan/hash.h"
 #include "common/plan/network.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/upload.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -39,6 +42,7 @@ enum : std::uint32_t {
   particle_sources_id,
   residuals_id,
   sources_id,
+  sky_id,
   samples_id
 };
 
@@ -81,6 +85,20 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   network.links = {{links_id}, bytes(network.shape().links())};
   frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
+  // As the other techniques' step prints it, it is scattered once, whatever scatters it.
+  Buffer sky;
+  if (scene.environment && knobs.choice("environment_airlight") == "on") {
+    Hash key;
+    key.add(std::string_view("network sky"));
+    key.add(environment_key(*scene.environment, {}));
+    key.add(lines);
+    frame.plan.uploads.push_back(
+        table_upload({{sky_id}, bytes(8 * static_cast<std::size_t>(lines))}, key.value(),
+                     [environment = *scene.environment, lines] { return network_sky(environment, lines); }));
+    sky = frame.plan.uploads.back().buffer;
+    frame.scatter_environment_in_fog_alone();
+  }
+
   const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : 2 * static_cast<std::size_t>(lines));
   ParticleLight light{.particles = network.particles,
                       .lines = network.lines,
@@ -101,6 +119,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                                    .lines = network.lines,
                                    .links = network.links,
                                    .first = light.first,
+                                   .sky = sky,
                                    .phase = medium.phase,
                                    .particle_count = particles,
                                    .line_count = lines,
@@ -116,6 +135,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                         .lines = network.lines,
                         .links = network.links,
                         .particle_sources = iteration.sources,
+                        .sky = sky,
                         .phase = medium.phase,
                         .particle_count = particles,
                         .line_count = lines,
