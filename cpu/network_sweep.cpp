@@ -122,6 +122,8 @@ LineLists::LineLists(const Links& links, std::size_t particles) : area(links.are
   links.each_list([&](std::size_t at, std::size_t n) { lists.push_back({at, n}); });
   std::sort(lists.begin(), lists.end(),
             [](const List& a, const List& b) { return a.count != b.count ? a.count > b.count : a.first < b.first; });
+  ends.reserve(5 * (particles + 2 * lists.size()) / 4);
+  shares.reserve(3 * 5 * (particles + lists.size()) / 4);
   for (std::size_t begin = 0; begin < lists.size(); begin += lists_abreast) {
     const std::size_t width = lists[begin].count + 1;
     ListBlock block{ends.size(), shares.size(), static_cast<int>(width), {}};

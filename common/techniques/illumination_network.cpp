@@ -31,6 +31,15 @@ int window_of(int particles) {
   return side;
 }
 
+Knob scattered_environment_knob() {
+  Knob knob = environment_knob();
+  knob.meaning =
+      "an environment's light that Gaussians and grids scatter in all orders and fog once; all of it once, as Zhou et al. print "
+      "it "
+      "for the isotropic phase function; or none";
+  return knob;
+}
+
 enum : std::uint32_t {
   voxels_id = FramePlan::first_own_id,
   volumes_id,
@@ -143,10 +152,13 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                         .unit = unit,
                         .sources = {}};
   if (!isotropic) source.camera = scene.camera.position - lattice.middle;
-  const glm::dvec3 corner = glm::floor((box.corner - lattice.middle) / lattice.unit);
+  // Finer than all of the medium would be: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
+  // most.
+  const MediumBox inner = medium_box(scene, static_cast<int>(knobs.number("resolution")), 0.01);
+  const glm::dvec3 corner = glm::floor((inner.corner - lattice.middle) / lattice.unit);
   source.first = corner;
-  source.stride = static_cast<int>(std::ceil(box.cell / lattice.unit));
-  source.nodes = glm::vec3(box.cells + 1);
+  source.stride = static_cast<int>(std::ceil(inner.cell / lattice.unit));
+  source.nodes = glm::vec3(inner.cells + 1);
   made.first = lattice.middle + corner * lattice.unit;
   made.spacing = glm::dvec3(source.stride * lattice.unit);
   source.sources = {{sources_id}, bytes(source.floats())};
@@ -266,7 +278,7 @@ Technique illumination_network() {
               .least = 2,
               .most = 256,
               .choices = {},
-              .meaning = "cells of the source function along the longest edge of the box about Gaussians and grid",
+              .meaning = "cells of the source function along the longest edge of what matters of the medium",
               .sweep = {}},
              {.name = "steps",
               .kind = Knob::Kind::integer,
@@ -279,7 +291,7 @@ Technique illumination_network() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),
-             environment_knob(),
+             scattered_environment_knob(),
              environment_shadows_knob(),
              environment_rays_knob()};
   t.multiple_scattering = true;
