@@ -21,6 +21,7 @@ uniform int stride;
 uniform int first_line;  // of this dispatch
 uniform int end_line;
 
+vec3 mean_of(int node) { return sums[node].xyz / sums[node].w; }
 int dot_of(ivec3 a, ivec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
 int beam_at(int line, int record, int way) { return 2 * ((line - first_line) * (particle_count + slots) + record) + way; }
@@ -120,7 +121,14 @@ void main() {
 #endif
 #ifdef MEANS
   if (n >= all) return;
-  vec3 mean = sums[n].xyz / sums[n].w;
+  vec3 mean = mean_of(n);
+  vec3 bent = vec3(0.0);  // second differences
+  ivec3 number = ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
+  ivec3 step = ivec3(1, size.x, size.x * size.y);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (number[axis] > 0 && number[axis] + 1 < size[axis]) bent += mean_of(n - step[axis]) - 2.0 * mean + mean_of(n + step[axis]);
+  }
+  mean = max(mean - bent / 12.0, 0.5 * mean);
   for (int c = 0; c < 3; ++c) table_of_sources[4 + all * c + n] = mean[c];
   atomicMax(most, floatBitsToUint(max(mean.x, max(mean.y, mean.z))));
 #endif

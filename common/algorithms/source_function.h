@@ -24,7 +24,7 @@ struct SourceFunction {
   int stride = 1;             // of the lattice, from node to node, > 0
   glm::vec3 nodes{2, 2, 2};   // an axis, each at least 2
 
-  Buffer sources;  // [W/m^2/sr] the table of source_in_volume() in common/formulas/network.h
+  Buffer sources;  // [W/m^2/sr] the table of source_in_volume() (common/formulas/network.h), nodes sharpened for its lookups
 
   NetworkShape shape() const {
     const auto side = static_cast<std::size_t>(window);

@@ -26,7 +26,7 @@ NetworkError measured(const Scene& scene, const NetworkTruth& truth, const Netwo
 
 // What is promised up to an optical depth of 10.
 TEST(IlluminationNetworkTruth, Isotropic) {
-  const Scene scene = network_cloud(10, 0.99, 0);
+  const Scene scene = network_cloud(10, 0.9, 0);
   const NetworkTruth truth = network_truth(scene, extent, 400);
   const NetworkError coarse = measured(scene, truth, {1024, 128, 32}), fine = measured(scene, truth, {});
   EXPECT_FALSE(!(fine.error <= tolerance("truth_network")));
