@@ -11,6 +11,8 @@ namespace airlight {
 
 namespace {
 
+constexpr std::size_t batch = 64;  // particles
+
 // The optical depth of each particle's share of its links, times the pixel's area, one way: added.
 void add_weights(const Links& links, float* weights) {
   links.each_list([&](std::size_t at, std::size_t n) {
@@ -75,12 +77,12 @@ struct Iteration {
   // round(changes) makes new sources and tells what changed, a batch an element.
   template <class Round>
   void iterate(std::size_t batches, Round&& round) {
-    std::vector<Change> changes(batches);
+    std::vector<SourceChange> changes(batches);
     std::fill_n(residuals, 1 + static_cast<std::size_t>(a.iterations), 0.0F);
     for (int k = 0; k < a.iterations; ++k) {
       round(changes);
-      Change all;
-      for (const Change& c : changes) all.add(c);
+      SourceChange all;
+      for (const SourceChange& c : changes) all.add(c);
       residuals[0] = static_cast<float>(k + 1);
       residuals[1 + k] = static_cast<float>(all.change / std::max(all.sum, 1e-30));
       if (a.left_out({residuals + 1, static_cast<std::size_t>(k + 1)}) <= a.tolerance) break;
@@ -91,36 +93,36 @@ struct Iteration {
 // What particles take in all directions is one number a channel.
 void isotropic(Iteration& it) {
   const std::size_t row = it.row;
-  std::vector<float> first(row, 0.0F), source, factor = it.albedos(), weight(groups * it.n, 0.0F), taken(groups * row);
+  std::vector<float> first(row, 0.0F), source, factor = it.albedos(), weight(line_groups * it.n, 0.0F), taken(line_groups * row);
   std::copy_n(it.first, 4 * it.n, first.begin());
   source = first;
   std::size_t scratch_floats = 0;
   for (const LineLists& lists : it.lists) scratch_floats = std::max(scratch_floats, lists.scratch_floats());
   std::vector<std::vector<float>> scratch(static_cast<std::size_t>(it.workers.threads()), std::vector<float>(scratch_floats));
-  // body(group, line, worker)
+  // body(group, its first line, the one after its last, worker)
   const auto each_group = [&](auto&& body) {
-    it.workers.each(groups, [&](int g, int worker) {
+    it.workers.each(line_groups, [&](int g, int worker) {
       const auto group = static_cast<std::size_t>(g);
-      for (std::size_t l = group * it.line_count / groups; l < (group + 1) * it.line_count / groups; ++l) body(group, l, worker);
+      body(group, group * it.line_count / line_groups, (group + 1) * it.line_count / line_groups, worker);
     });
   };
-  each_group([&](std::size_t g, std::size_t l, int) { add_weights(it.links_of(l), weight.data() + g * it.n); });
+  each_group([&](std::size_t group, std::size_t begin, std::size_t end, int) {
+    for (std::size_t l = begin; l < end; ++l) add_weights(it.links_of(l), weight.data() + group * it.n);
+  });
   for (std::size_t v = 0; v < it.n; ++v) {
     float weights = 0;
-    for (std::size_t g = 0; g < groups; ++g) weights += weight[g * it.n + v];
+    for (std::size_t g = 0; g < line_groups; ++g) weights += weight[g * it.n + v];
     for (std::size_t c = 0; c < 3; ++c) factor[4 * v + c] *= 0.5F / std::max(weights, 1e-30F);
   }
   EvenScatter scatter{{}, factor.data(), first.data(), source.data()};
-  for (std::size_t g = 0; g < groups; ++g) scatter.taken[g] = taken.data() + g * row;
+  for (std::size_t g = 0; g < line_groups; ++g) scatter.taken[g] = taken.data() + g * row;
   const std::size_t batches = (row + 4 * batch - 1) / (4 * batch);
-  it.iterate(batches, [&](std::vector<Change>& changes) {
-    it.workers.each(groups, [&](int g, int worker) {
-      const auto group = static_cast<std::size_t>(g);
-      float* to = taken.data() + group * row;
+  it.iterate(batches, [&](std::vector<SourceChange>& changes) {
+    each_group([&](std::size_t group, std::size_t begin, std::size_t end, int worker) {
+      float *to = taken.data() + group * row, *own = scratch[static_cast<std::size_t>(worker)].data();
       std::fill_n(to, row, 0.0F);
-      for (std::size_t l = group * it.line_count / groups; l < (group + 1) * it.line_count / groups; ++l)
-        sweep_both_ways(it.lists[l], source.data(), it.sky.data() + 8 * l, scratch[static_cast<std::size_t>(worker)].data(), to,
-                        it.simd);
+      for (std::size_t l = begin; l < end; ++l)
+        sweep_both_ways(it.lists[l], source.data(), it.sky.data() + 8 * l, own, to, it.simd);
     });
     it.workers.each(static_cast<int>(batches), [&](int b, int) {
       const std::size_t at = 4 * batch * static_cast<std::size_t>(b);
@@ -158,10 +160,10 @@ void anisotropic(Iteration& it) {
   std::vector<std::vector<float>> ways(threads, std::vector<float>(2 * row));
   std::vector<ScatterScratch> scratch(threads);
   for (ScatterScratch& s : scratch) s.even.resize(3 * particle_padding * lines), s.odd.resize(3 * particle_padding * lines);
-  const Scatter scatter{even.data(), odd.data(), even_taken.data(),   odd_taken.data(), first.data(), source.data(),
-                        lines,       row,        some_odd ? lines : 0};
+  const DirectionScatter scatter{even.data(), odd.data(), even_taken.data(),   odd_taken.data(), first.data(), source.data(),
+                                 lines,       row,        some_odd ? lines : 0};
   const std::size_t batches = particles / particle_padding;
-  it.iterate(batches, [&](std::vector<Change>& changes) {
+  it.iterate(batches, [&](std::vector<SourceChange>& changes) {
     it.each_line([&](std::size_t l, std::size_t worker) {
       std::vector<float>& taken = ways[worker];
       std::fill(taken.begin(), taken.end(), 0.0F);

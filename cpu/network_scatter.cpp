@@ -26,11 +26,11 @@ struct WideChange {
     change.v[q] += abs(now - before);
     sum.v[q] += now;
   }
-  HWY_INLINE Change total() const {
+  HWY_INLINE SourceChange total() const {
     HWY_ALIGN float values[2][16];
     wide_store(change, values[0]);
     wide_store(sum, values[1]);
-    Change all;
+    SourceChange all;
     for (int i = 0; i < 16; ++i) all.add({static_cast<double>(values[0][i]), static_cast<double>(values[1][i])});
     return all;
   }
@@ -55,13 +55,13 @@ static void phase_row_lanes(const Phase& phase, const std::int32_t* lines, int c
 }
 
 // New sources of elements begin .. end, multiples of 16.
-static void scatter_evenly_lanes(const EvenScatter& s, std::size_t begin, std::size_t end, Change& change) {
+static void scatter_evenly_lanes(const EvenScatter& s, std::size_t begin, std::size_t end, SourceChange& change) {
   WideChange all{wide_zero(), wide_zero()};
   for (std::size_t e = begin; e < end; e += 16) {
     for (int q = 0; q < wide_vectors; ++q) {
       const std::size_t at = e + static_cast<std::size_t>(q) * lanes;
       Real sum = load(s.taken[0] + at);
-      for (std::size_t g = 1; g < groups; ++g) sum += load(s.taken[g] + at);
+      for (std::size_t g = 1; g < line_groups; ++g) sum += load(s.taken[g] + at);
       const Real now = fma(sum, load(s.factor + at), load(s.first + at));
       all.add(q, load(s.sources + at), now);
       store(now, s.sources + at);
@@ -117,7 +117,8 @@ struct LaneChange {
 
 // New sources of `lanes` particles from float `at` of a row on, in both ways of lines i .. i + rows.
 template <int rows>
-HWY_INLINE void new_sources(const Scatter& s, const ScatterScratch& scratch, std::size_t at, std::size_t i, LaneChange& change) {
+HWY_INLINE void new_sources(const DirectionScatter& s, const ScatterScratch& scratch, std::size_t at, std::size_t i,
+                            LaneChange& change) {
   Real even[rows][3], odd[rows][3];
   product<rows>(s.even + i, s.lines, scratch.even.data(), even);
   HWY_ALIGN float kept[rows * 3 * lanes];  // registers hold one product
@@ -146,7 +147,8 @@ HWY_INLINE void new_sources(const Scatter& s, const ScatterScratch& scratch, std
 }  // namespace
 
 // New sources of the 16 particles from number `particle` on.
-static void scatter_directions_lanes(const Scatter& s, std::size_t particle, ScatterScratch& scratch, Change& change) {
+static void scatter_directions_lanes(const DirectionScatter& s, std::size_t particle, ScatterScratch& scratch,
+                                     SourceChange& change) {
   constexpr int rows = lanes == 16 ? most_rows : most_rows / 2;  // as many sums as there are registers for
   HWY_ALIGN float changes[2][3][16];
   for (std::size_t part = 0; part < particle_padding; part += lanes) {
@@ -191,8 +193,8 @@ void phase_row(const Phase& phase, const std::int32_t* lines, int count, int i, 
   entry(HWY_DISPATCH_TABLE(phase_row_lanes), simd)(phase, lines, count, i, even, odd);
 }
 
-Change scatter_evenly(const EvenScatter& s, std::size_t begin, std::size_t end, Simd simd) {
-  Change change;
+SourceChange scatter_evenly(const EvenScatter& s, std::size_t begin, std::size_t end, Simd simd) {
+  SourceChange change;
   entry(HWY_DISPATCH_TABLE(scatter_evenly_lanes), simd)(s, begin, end, change);
   return change;
 }
@@ -202,8 +204,8 @@ void split_taken(const float* along, const float* against, const float* share, c
   entry(HWY_DISPATCH_TABLE(split_taken_lanes), simd)(along, against, share, albedo, row, even, odd);
 }
 
-Change scatter_directions(const Scatter& s, std::size_t particle, ScatterScratch& scratch, Simd simd) {
-  Change change;
+SourceChange scatter_directions(const DirectionScatter& s, std::size_t particle, ScatterScratch& scratch, Simd simd) {
+  SourceChange change;
   entry(HWY_DISPATCH_TABLE(scatter_directions_lanes), simd)(s, particle, scratch, change);
   return change;
 }
