@@ -34,9 +34,8 @@ int window_of(int particles) {
 Knob scattered_environment_knob() {
   Knob knob = environment_knob();
   knob.meaning =
-      "an environment's light that Gaussians and grids scatter in all orders and fog once; all of it once, as Zhou et al. print "
-      "it "
-      "for the isotropic phase function; or none";
+      "an environment's light that Gaussians and grids scatter in all orders and fog once; all of it once, as Zhou et al. "
+      "print it for the isotropic phase function; or none";
   return knob;
 }
 
@@ -94,7 +93,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   network.links = {{links_id}, bytes(network.shape().links())};
   frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
-  // As the other techniques' step prints it, it is scattered once, whatever scatters it.
+  // Published and off are the other techniques' step and nothing.
   Buffer sky;
   if (scene.environment && knobs.choice("environment_airlight") == "on") {
     Hash key;
