@@ -8,7 +8,6 @@
 #include "common/algorithms/network.h"
 #include "common/algorithms/view.h"
 #include "common/image.h"
-#include "common/stats.h"
 
 namespace airlight {
 
@@ -44,8 +43,9 @@ struct NetworkIteration {
     return static_cast<float>(change * ratio / std::max(1 - ratio, 1e-6));
   }
 
-  // What the buffer of residuals says.
-  void tell(std::span<const float> buffer, StepStats& stats) const {
+  // What the buffer of residuals says, to the statistics of a step.
+  template <class Stats>
+  void tell(std::span<const float> buffer, Stats& stats) const {
     const auto history = buffer.subspan(1, static_cast<std::size_t>(buffer[0]));
     stats.residuals.assign(history.begin(), history.end());
     stats.left_out = left_out(history);
