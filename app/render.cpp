@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <tuple>
 
@@ -38,7 +39,12 @@ std::string stats_json(const Frame& frame, const Times& times, const std::string
   std::string steps, knobs;
   for (const StepStats& s : frame.stats.steps) {
     const std::string note = s.note.empty() ? "" : fmt::format(", \"note\": {}", quoted(s.note));
-    const std::string residuals = s.residuals.empty() ? "" : fmt::format(", \"residuals\": [{}]", fmt::join(s.residuals, ", "));
+    std::string residuals;
+    if (!s.residuals.empty()) {
+      // After a first round nothing may be known of what is left out.
+      residuals = fmt::format(", \"residuals\": [{}], \"left_out\": {}, \"converged\": {}", fmt::join(s.residuals, ", "),
+                              std::isfinite(s.left_out) ? fmt::format("{}", s.left_out) : "null", s.converged);
+    }
     steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {}{}{} }}",
                          steps.empty() ? "" : ",", quoted(s.name), s.seconds, s.items, s.reused, residuals, note);
   }
@@ -55,7 +61,11 @@ void print_stats(const Frame& frame, const Times& times) {
   fmt::print("{} on {}\n", frame.technique, frame.device);
   for (const StepStats& s : frame.stats.steps) {
     fmt::print("  {:<24} {:>10.3f} ms  {:>10} items{}", s.name, 1e3 * s.seconds, s.items, s.reused ? "  reused" : "");
-    if (!s.residuals.empty()) fmt::print("  {} rounds, the last changed {:.2g}", s.residuals.size(), s.residuals.back());
+    if (!s.residuals.empty()) {
+      fmt::print("  {} rounds, the last changed {:.2g}, about {:.2g} are left out", s.residuals.size(), s.residuals.back(),
+                 s.left_out);
+      if (!s.converged) fmt::print(": more than tolerance allows, raise iterations");
+    }
     fmt::print("{}{}\n", s.note.empty() ? "" : "  ", s.note);
   }
   fmt::print("  {:<24} {:>10.3f} ms\n", "all steps, wall time", 1e3 * frame.stats.seconds);

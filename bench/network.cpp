@@ -61,7 +61,7 @@ void times(int paths) {
       if (!(e.error <= 0.05)) continue;
       Renderer renderer({.backend = "cpu"});
       const auto start = std::chrono::steady_clock::now();
-      renderer.render(scene, network_settings(scene, s, full));
+      renderer.render(scene, network_settings(s, full));
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       fmt::print(
           "depth {}, albedo 0.9, isotropic: {:.3f} ({} particles, {} directions, {} cells: {:.1f} %), {:.0f} ({:.0f} paths a "

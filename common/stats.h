@@ -13,7 +13,11 @@ struct StepStats {
   std::uint64_t items = 0;            // pixels or triangles processed
   bool reused = false;                // its kept outputs were up to date
   std::string note = {};              // where its result comes from, or was kept; empty: nothing to tell
-  std::vector<float> residuals = {};  // of a step that iterates: the change in each round, beside the largest value
+  // Of a step that iterates: the change in each round, beside the sum of what it changes; about what all further rounds would
+  // change, and whether that is as little as was asked for.
+  std::vector<float> residuals = {};
+  float left_out = 0;
+  bool converged = true;
 };
 
 struct Stats {

@@ -153,7 +153,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     std::visit([&](const auto& a) { run_volume(a); }, head.what);
     StepStats& step = stats[group.steps[0]];
     for (const Buffer& made : buffers_made_by(head.what)) step.items += made.bytes / sizeof(float);
-    if (const auto* a = std::get_if<NetworkIteration>(&head.what)) step.residuals = a->history(buffer_of<float>(a->residuals));
+    if (const auto* a = std::get_if<NetworkIteration>(&head.what)) a->tell(buffer_of<float>(a->residuals), step);
     step.seconds = seconds_since(start);
     threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
     return;

@@ -4,128 +4,14 @@
 
 #include "cpu/kernels.h"
 #include "cpu/network_links.h"
+#include "cpu/network_scatter.h"
+#include "cpu/network_sweep.h"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "cpu/network_iteration.cpp"
-#include <hwy/foreach_target.h>
-
-#include "cpu/simd.h"
-//
-#include "cpu/pixel_rays.h"
-//
-#include "cpu/network.h"
-
-#ifndef AIRLIGHT_CPU_NETWORK_ITERATION
-#define AIRLIGHT_CPU_NETWORK_ITERATION
 namespace airlight {
 
 namespace {
 
-constexpr int padding = 16;  // the most lanes
-
-// What each direction's share is of what each other one takes: sources in direction i are the sum over d of matrix[d + n i] times
-// x[d], row after row of `row` floats.
-struct Scatter {
-  const float* matrix;
-  int directions;
-  const float* x;
-  std::size_t row;
-};
-
-}  // namespace
-
-}  // namespace airlight
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace airlight::HWY_NAMESPACE {
-
-// Phase function from the direction of index d (both ways of each line in turn) to direction i.
-static void phase_matrix(const Phase& phase, const std::int32_t* lines, int directions, int i, float* row) {
-  const auto direction = [&](int n) HWY_ATTR {
-    const Real3 d = line_direction_of(lines + static_cast<std::ptrdiff_t>(line_fields) * (n / 2));
-    const Real sign = n % 2 == 0 ? 1.0 : -1.0;
-    return Real3{d.x * sign, d.y * sign, d.z * sign};
-  };
-  const Real3 to = direction(i);
-  for (int d = 0; d < directions; ++d) {
-    HWY_ALIGN float value[16];
-    store(phase_value(static_cast<int>(phase.kind), static_cast<float>(phase.g), dot(direction(d), to)), value);
-    row[d] = value[0];
-  }
-}
-
-// Columns begin .. begin + count of all rows of the product, each row `count` floats of `to`: as many as stay in the cache. count
-// is a multiple of 4 vectors, the number of directions is even.
-static void scatter(const Scatter& s, std::size_t begin, std::size_t count, float* to) {
-  for (int i = 0; i < s.directions; i += 2) {
-    const float* row = s.matrix + static_cast<std::ptrdiff_t>(s.directions) * i;
-    for (std::size_t at = 0; at < count; at += 4 * lanes) {
-      Real sum[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-      for (int d = 0; d < s.directions; ++d) {
-        const float* x = s.x + s.row * static_cast<std::size_t>(d) + begin + at;
-        const Real a = row[d], b = row[d + s.directions];
-        for (int k = 0; k < 4; ++k) {
-          const Real v = load(x + k * lanes);
-          sum[k] = fma(a, v, sum[k]);
-          sum[4 + k] = fma(b, v, sum[4 + k]);
-        }
-      }
-      float* out = to + static_cast<std::size_t>(i) * count + at;
-      for (int k = 0; k < 4; ++k) {
-        store(sum[k], out + k * lanes);
-        store(sum[4 + k], out + count + k * lanes);
-      }
-    }
-  }
-}
-
-}  // namespace airlight::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace airlight {
-
-HWY_EXPORT(phase_matrix);
-HWY_EXPORT(scatter);
-
-namespace {
-
-// Light along one way of a bundle: what particles take of it is added to `taken`.
-void sweep(const Links& links, bool backward, const float* source, float* taken) {
-  links.each_list([&](std::size_t at, std::size_t n) {
-    Rgb beam;
-    // What the link takes of the beam and of its own source.
-    const auto pass = [&](std::size_t k, const Rgb& mean) {
-      Rgb got;
-      for (std::size_t c = 0; c < 4; ++c) {
-        got.v[c] = links.given[k] * beam.v[c] + links.kept[k] * mean.v[c];
-        beam.v[c] += links.given[k] * mean.v[c] - links.lost[k] * beam.v[c];
-      }
-      return got;
-    };
-    std::size_t here = links.particle_at(backward ? at + n - 1 : at);
-    Rgb sent = rgb_at(source, here), waiting = pass(backward ? at + n : at, sent);
-    for (std::size_t step = 1; step < n; ++step) {
-      const std::size_t k = backward ? at + n - step : at + step, next = links.particle_at(backward ? k - 1 : k);
-      const Rgb sent_next = rgb_at(source, next);
-      Rgb mean;
-      for (std::size_t c = 0; c < 4; ++c) mean.v[c] = 0.5F * (sent.v[c] + sent_next.v[c]);
-      Rgb half = pass(k, mean);
-      for (std::size_t c = 0; c < 4; ++c) {
-        half.v[c] *= 0.5F;
-        waiting.v[c] += half.v[c];
-      }
-      add(taken, here, waiting, links.area);
-      waiting = half;
-      sent = sent_next;
-      here = next;
-    }
-    const Rgb last = pass(backward ? at : at + n, sent);
-    for (std::size_t c = 0; c < 4; ++c) waiting.v[c] += last.v[c];
-    add(taken, here, waiting, links.area);
-  });
-}
+constexpr std::size_t batch = 64;  // particles
 
 // The optical depth of each particle's share of its links, times the pixel's area, one way: added.
 void add_weights(const Links& links, float* weights) {
@@ -142,176 +28,172 @@ void add_weights(const Links& links, float* weights) {
 struct Iteration {
   const NetworkIteration& a;
   Workers& workers;
+  Simd simd;
   const float *particles, *links, *first;
   const std::int32_t* lines;
   float *sources, *residuals;
-  std::size_t n;
+  std::size_t n, line_count;
+  std::size_t row;  // floats of a row of sources: one particle more than there are, of a multiple of as many as lanes
+  std::vector<LineLists> lists;
+  std::vector<float> sky;  // rgb and an unused float of each direction
 
-  Iteration(const NetworkIteration& algorithm, const BufferView& view, Workers& w)
+  Iteration(const NetworkIteration& algorithm, const BufferView& view, Workers& w, Simd s)
       : a(algorithm),
         workers(w),
+        simd(s),
         particles(view.floats(a.particles)),
         links(view.floats(a.links)),
         first(view.floats(a.first)),
         lines(view.integers(a.lines)),
         sources(view.made(a.sources)),
         residuals(view.made(a.residuals)),
-        n(static_cast<std::size_t>(a.particle_count)) {}
+        n(static_cast<std::size_t>(a.particle_count)),
+        line_count(static_cast<std::size_t>(a.line_count)),
+        row(4 * particle_padding * (n / particle_padding + 1)),
+        lists(line_count),
+        sky(4 * 2 * line_count, 0.0F) {
+    if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
+    each_line([&](std::size_t l, std::size_t) { lists[l] = LineLists(links_of(l), n); });
+  }
 
   Links links_of(std::size_t l) const { return {a.shape(), links, lines + l * line_fields, l}; }
-  float albedo(std::size_t v, std::size_t c) const { return particles[(particle_albedo + c) * n + v]; }
 
-  // round() makes new sources, and gives the largest change and the largest source.
+  // body(line, worker)
+  template <class Body>
+  void each_line(Body&& body) {
+    workers.each(static_cast<int>(line_count),
+                 [&](int l, int worker) { body(static_cast<std::size_t>(l), static_cast<std::size_t>(worker)); });
+  }
+
+  // rgb and zero of each particle, then zeros.
+  std::vector<float> albedos() const {
+    std::vector<float> values(row, 0.0F);
+    for (std::size_t v = 0; v < n; ++v) {
+      for (std::size_t c = 0; c < 3; ++c) values[4 * v + c] = particles[(particle_albedo + c) * n + v];
+    }
+    return values;
+  }
+
+  // round(changes) makes new sources and tells what changed, a batch an element.
   template <class Round>
-  void iterate(Round&& round) {
+  void iterate(std::size_t batches, Round&& round) {
+    std::vector<SourceChange> changes(batches);
     std::fill_n(residuals, 1 + static_cast<std::size_t>(a.iterations), 0.0F);
     for (int k = 0; k < a.iterations; ++k) {
-      const auto [change, largest] = round();
-      const float residual = change / std::max(largest, 1e-30F);
+      round(changes);
+      SourceChange all;
+      for (const SourceChange& c : changes) all.add(c);
       residuals[0] = static_cast<float>(k + 1);
-      residuals[1 + k] = residual;
-      if (residual <= a.tolerance) break;
+      residuals[1 + k] = static_cast<float>(all.change / std::max(all.sum, 1e-30));
+      if (a.left_out({residuals + 1, static_cast<std::size_t>(k + 1)}) <= a.tolerance) break;
     }
   }
 };
 
-struct Change {
-  float change = 0, largest = 0;
-  void add(float before, float now) {
-    change = std::max(change, std::fabs(now - before));
-    largest = std::max(largest, now);
-  }
-  void add(const Change& other) {
-    change = std::max(change, other.change);
-    largest = std::max(largest, other.largest);
-  }
-};
-
-constexpr std::size_t groups = 16;  // of lines, whatever the number of threads: sums over them have a fixed order
-constexpr std::size_t batch = 64;   // particles
-
-std::size_t batches(std::size_t n) { return (n + batch - 1) / batch; }
-
 // What particles take in all directions is one number a channel.
 void isotropic(Iteration& it) {
-  const std::size_t n = it.n, lines = static_cast<std::size_t>(it.a.line_count);
-  std::vector<std::vector<float>> taken(groups, std::vector<float>(4 * n)), weight(groups, std::vector<float>(n, 0.0F));
-  float* source = it.sources;
-  std::copy_n(it.first, 4 * n, source);
+  const std::size_t row = it.row;
+  std::vector<float> first(row, 0.0F), source, factor = it.albedos(), weight(line_groups * it.n, 0.0F), taken(line_groups * row);
+  std::copy_n(it.first, 4 * it.n, first.begin());
+  source = first;
+  std::size_t scratch_floats = 0;
+  for (const LineLists& lists : it.lists) scratch_floats = std::max(scratch_floats, lists.scratch_floats());
+  std::vector<std::vector<float>> scratch(static_cast<std::size_t>(it.workers.threads()), std::vector<float>(scratch_floats));
+  // body(group, its first line, the one after its last, worker)
   const auto each_group = [&](auto&& body) {
-    it.workers.each(groups, [&](int g, int) {
+    it.workers.each(line_groups, [&](int g, int worker) {
       const auto group = static_cast<std::size_t>(g);
-      for (std::size_t l = group * lines / groups; l < (group + 1) * lines / groups; ++l) body(group, it.links_of(l));
+      body(group, group * it.line_count / line_groups, (group + 1) * it.line_count / line_groups, worker);
     });
   };
-  each_group([&](std::size_t g, const Links& links) { add_weights(links, weight[g].data()); });
-  std::vector<Change> changes(batches(n));
-  it.iterate([&] {
-    for (std::vector<float>& t : taken) std::fill(t.begin(), t.end(), 0.0F);
-    each_group([&](std::size_t g, const Links& links) {
-      sweep(links, false, source, taken[g].data());
-      sweep(links, true, source, taken[g].data());
-    });
-    it.workers.each(static_cast<int>(batches(n)), [&](int b, int) {
-      const auto at = static_cast<std::size_t>(b);
-      Change change;
-      for (std::size_t v = at * batch; v < std::min((at + 1) * batch, n); ++v) {
-        Rgb sum;
-        float weights = 0;
-        for (std::size_t g = 0; g < groups; ++g) {
-          add(sum.v, 0, rgb_at(taken[g].data(), v), 1.0F);
-          weights += weight[g][v];
-        }
-        const float scale = 0.5F / std::max(weights, 1e-30F);
-        for (std::size_t c = 0; c < 3; ++c) {
-          const float now = it.first[4 * v + c] + sum.v[c] * scale * it.albedo(v, c);
-          change.add(source[4 * v + c], now);
-          source[4 * v + c] = now;
-        }
-      }
-      changes[at] = change;
-    });
-    Change all;
-    for (const Change& c : changes) all.add(c);
-    return all;
+  each_group([&](std::size_t group, std::size_t begin, std::size_t end, int) {
+    for (std::size_t l = begin; l < end; ++l) add_weights(it.links_of(l), weight.data() + group * it.n);
   });
+  for (std::size_t v = 0; v < it.n; ++v) {
+    float weights = 0;
+    for (std::size_t g = 0; g < line_groups; ++g) weights += weight[g * it.n + v];
+    for (std::size_t c = 0; c < 3; ++c) factor[4 * v + c] *= 0.5F / std::max(weights, 1e-30F);
+  }
+  EvenScatter scatter{{}, factor.data(), first.data(), source.data()};
+  for (std::size_t g = 0; g < line_groups; ++g) scatter.taken[g] = taken.data() + g * row;
+  const std::size_t batches = (row + 4 * batch - 1) / (4 * batch);
+  it.iterate(batches, [&](std::vector<SourceChange>& changes) {
+    each_group([&](std::size_t group, std::size_t begin, std::size_t end, int worker) {
+      float *to = taken.data() + group * row, *own = scratch[static_cast<std::size_t>(worker)].data();
+      std::fill_n(to, row, 0.0F);
+      for (std::size_t l = begin; l < end; ++l)
+        sweep_both_ways(it.lists[l], source.data(), it.sky.data() + 8 * l, own, to, it.simd);
+    });
+    it.workers.each(static_cast<int>(batches), [&](int b, int) {
+      const std::size_t at = 4 * batch * static_cast<std::size_t>(b);
+      changes[static_cast<std::size_t>(b)] = scatter_evenly(scatter, at, std::min(at + 4 * batch, row), it.simd);
+    });
+  });
+  std::copy_n(source.data(), 4 * it.n, it.sources);
 }
 
 // A source in each direction. What a particle takes of one is shared out by the phase function over the directions in which it
 // sends, each with its own weight, so that what it sends is what it takes, times its albedo.
-void anisotropic(Iteration& it, Simd simd) {
-  const std::size_t n = it.n, lines = static_cast<std::size_t>(it.a.line_count), directions = 2 * lines;
-  const std::size_t columns = (4 * n + 4 * padding - 1) / (4 * padding) * (4 * padding);
-  std::vector<float> matrix(directions * directions), taken(columns * directions), source(columns * directions),
-      weight(columns * lines), share(columns * directions);
-  it.workers.each(static_cast<int>(directions), [&](int i, int) {
-    entry(HWY_DISPATCH_TABLE(phase_matrix), simd)(it.a.phase, it.lines, static_cast<int>(directions), i,
-                                                  matrix.data() + directions * static_cast<std::size_t>(i));
-    std::copy_n(it.first + 4 * n * static_cast<std::size_t>(i), 4 * n, source.data() + columns * static_cast<std::size_t>(i));
+void anisotropic(Iteration& it) {
+  const std::size_t n = it.n, lines = it.line_count, row = it.row, particles = row / 4;
+  std::vector<float> even(lines * lines), odd(lines * lines), first(2 * lines * row, 0.0F), weight(lines * n, 0.0F),
+      share(lines * particles, 0.0F), even_taken(lines * row), odd_taken(lines * row);
+  const std::vector<float> albedo = it.albedos();
+  // Rows are columns: the phase function is the same from one direction to another and back.
+  it.each_line([&](std::size_t l, std::size_t) {
+    phase_row(it.a.phase, it.lines, static_cast<int>(lines), static_cast<int>(l), even.data() + lines * l, odd.data() + lines * l,
+              it.simd);
+    for (std::size_t d = 2 * l; d < 2 * l + 2; ++d) std::copy_n(it.first + 4 * n * d, 4 * n, first.data() + row * d);
+    add_weights(it.links_of(l), weight.data() + n * l);
   });
-  it.workers.each(static_cast<int>(lines), [&](int l, int) {
-    add_weights(it.links_of(static_cast<std::size_t>(l)), weight.data() + columns * static_cast<std::size_t>(l));
-  });
-  it.workers.each(static_cast<int>(directions), [&](int d, int) {
-    float* to = share.data() + columns * static_cast<std::size_t>(d);
-    for (std::size_t j = 0; j < directions; ++j) {
-      const float phase = matrix[static_cast<std::size_t>(d) + directions * j], *weights = weight.data() + columns * (j / 2);
+  it.each_line([&](std::size_t l, std::size_t) {
+    float* to = share.data() + particles * l;
+    for (std::size_t j = 0; j < lines; ++j) {
+      const float phase = 2 * even[lines * l + j], *weights = weight.data() + n * j;
       for (std::size_t v = 0; v < n; ++v) to[v] += phase * weights[v];
     }
     for (std::size_t v = 0; v < n; ++v) to[v] = 1 / std::max(to[v], 1e-30F);
   });
-  constexpr std::size_t block = 8 * 4 * padding;  // of columns
-  const std::size_t blocks = (columns + block - 1) / block;
-  std::vector<std::vector<float>> products(static_cast<std::size_t>(it.workers.threads()),
-                                           std::vector<float>(block * directions));
-  std::vector<Change> changes(blocks);
-  it.iterate([&] {
-    it.workers.each(static_cast<int>(lines), [&](int line, int) {
-      const auto l = static_cast<std::size_t>(line);
-      const Links links = it.links_of(l);
-      for (std::size_t way = 0; way < 2; ++way) {
-        const std::size_t d = 2 * l + way;
-        float* to = taken.data() + columns * d;
-        std::fill_n(to, columns, 0.0F);
-        sweep(links, way == 1, source.data() + columns * d, to);
-        for (std::size_t v = 0; v < n; ++v) {
-          for (std::size_t c = 0; c < 3; ++c) to[4 * v + c] *= share[columns * d + v] * it.albedo(v, c);
-        }
+  const bool some_odd = std::any_of(odd.begin(), odd.end(), [](float x) { return x != 0; });
+  std::vector<float> source = first;
+  const auto threads = static_cast<std::size_t>(it.workers.threads());
+  std::vector<std::vector<float>> ways(threads, std::vector<float>(2 * row));
+  std::vector<ScatterScratch> scratch(threads);
+  for (ScatterScratch& s : scratch) s.even.resize(3 * particle_padding * lines), s.odd.resize(3 * particle_padding * lines);
+  const DirectionScatter scatter{even.data(), odd.data(), even_taken.data(),   odd_taken.data(), first.data(), source.data(),
+                                 lines,       row,        some_odd ? lines : 0};
+  const std::size_t batches = particles / particle_padding;
+  it.iterate(batches, [&](std::vector<SourceChange>& changes) {
+    it.each_line([&](std::size_t l, std::size_t worker) {
+      std::vector<float>& taken = ways[worker];
+      std::fill(taken.begin(), taken.end(), 0.0F);
+      for (const bool backward : {false, true}) {
+        const std::size_t d = 2 * l + (backward ? 1 : 0);
+        sweep_one_way(it.lists[l], backward, source.data() + row * d, it.sky.data() + 4 * d, taken.data() + (backward ? row : 0),
+                      it.simd);
       }
+      split_taken(taken.data(), taken.data() + row, share.data() + particles * l, albedo.data(), row, even_taken.data() + row * l,
+                  odd_taken.data() + row * l, it.simd);
     });
-    const Scatter product{matrix.data(), static_cast<int>(directions), taken.data(), columns};
-    it.workers.each(static_cast<int>(blocks), [&](int b, int worker) {
-      const std::size_t begin = block * static_cast<std::size_t>(b), count = std::min(block, columns - begin);
-      float* made = products[static_cast<std::size_t>(worker)].data();
-      entry(HWY_DISPATCH_TABLE(scatter), simd)(product, begin, count, made);
-      Change change;
-      for (std::size_t i = 0; i < directions; ++i) {
-        float* to = source.data() + columns * i + begin;
-        for (std::size_t k = 0; k < count && begin + k < 4 * n; ++k) {
-          const float now = it.first[4 * n * i + begin + k] + made[count * i + k];
-          change.add(to[k], now);
-          to[k] = now;
-        }
-      }
-      changes[static_cast<std::size_t>(b)] = change;
+    it.workers.each(static_cast<int>(batches), [&](int b, int worker) {
+      const auto at = static_cast<std::size_t>(b);
+      changes[at] = scatter_directions(scatter, particle_padding * at, scratch[static_cast<std::size_t>(worker)], it.simd);
     });
-    Change all;
-    for (const Change& c : changes) all.add(c);
-    return all;
   });
-  for (std::size_t d = 0; d < directions; ++d) std::copy_n(source.data() + columns * d, 4 * n, it.sources + 4 * n * d);
+  it.each_line([&](std::size_t l, std::size_t) {
+    for (std::size_t d = 2 * l; d < 2 * l + 2; ++d) std::copy_n(source.data() + row * d, 4 * n, it.sources + 4 * n * d);
+  });
 }
 
 }  // namespace
 
 void run_volume(const NetworkIteration& a, const BufferView& view, Workers& workers, Simd simd) {
-  Iteration it(a, view, workers);
+  Iteration it(a, view, workers, simd);
   if (a.phase.kind == PhaseKind::isotropic) {
     isotropic(it);
   } else {
-    anisotropic(it, simd);
+    anisotropic(it);
   }
 }
 
 }  // namespace airlight
-#endif

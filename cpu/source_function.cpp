@@ -9,7 +9,7 @@ namespace airlight {
 
 namespace {
 
-constexpr std::size_t chunk = 32;  // lines whose beams are held at once
+constexpr std::size_t chunk = 4;  // lines whose beams are held at once: what a cache of one core holds
 
 // Radiance on one bundle of lines: of each link, what leaves it along the line and against it; and where particles are.
 struct Beams {
@@ -17,13 +17,13 @@ struct Beams {
   std::vector<std::int32_t> along;       // a record, of its particle
 
   void make(const Links& links, const std::int32_t* line, const float* particles, const float* source, const float* source_back,
-            const NetworkShape& shape) {
+            const float* sky, const NetworkShape& shape) {
     forward.resize(4 * shape.records());
     backward.resize(4 * shape.records());
     along.resize(shape.records());
     links.each_list([&](std::size_t at, std::size_t n) {
       const auto sweep = [&](bool back, const float* sent, float* out) {
-        Rgb beam;
+        Rgb beam = rgb_at(sky, back ? 1 : 0);
         for (std::size_t step = 0; step <= n; ++step) {
           const std::size_t k = at + (back ? n - step : step);
           const Rgb a = rgb_at(sent, links.particle_at(k == at ? k : k - 1));
@@ -61,28 +61,45 @@ void add_scaled(float (&sum)[3], const float* beam, float weight) {
   for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * beam[c];
 }
 
-// Adds what arrives at the node along one bundle, each way with its weight.
-void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const Node& node, float forward, float backward,
-               float (&sum)[3]) {
+// Where the last node lay, from which the next one is not far.
+struct Cursor {
+  std::size_t pixel = ~std::size_t{0}, before = 0;  // how many particles lie before it on its line
+};
+
+// Adds what arrives at the node along one bundle, each way with its weight. `sky`: what does both ways where nothing is met.
+void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const float* sky, const Node& node,
+               float forward, float backward, Cursor& cursor, float (&sum)[3]) {
+  const auto nothing_met = [&] {
+    add_scaled(sum, sky, forward);
+    add_scaled(sum, sky + 4, backward);
+  };
   std::size_t pixel[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::int32_t at = dot_of(line + (k == 0 ? line_across : line_down), node) - line[line_begin + k];
-    if (at < 0 || at / line[line_pixel + k] >= line[line_pixels + k]) return;
-    pixel[k] = static_cast<std::size_t>(at / line[line_pixel + k]);
+    const std::int32_t across = dot_of(line + (k == 0 ? line_across : line_down), node) - line[line_begin + k];
+    const std::int32_t number = across / line[line_pixel + k];
+    if (across < 0 || number >= line[line_pixels + k]) return nothing_met();
+    pixel[k] = static_cast<std::size_t>(number);
   }
   const std::size_t c = pixel[0] + static_cast<std::size_t>(line[line_pixels]) * pixel[1];
   const auto first = static_cast<std::size_t>(links.begin[c]), n = static_cast<std::size_t>(links.begin[c + 1]) - first;
-  if (n == 0) return;
+  if (n == 0) return nothing_met();
   const std::size_t at = first + c;
   const std::int32_t here = dot_of(line + line_direction, node);
   const auto begin = beams.along.begin() + static_cast<std::ptrdiff_t>(at);
-  const auto k = static_cast<std::size_t>(std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(n), here) - begin);
+  if (cursor.pixel != c) {
+    cursor.before = static_cast<std::size_t>(std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(n), here) - begin);
+    cursor.pixel = c;
+  }
+  std::size_t& k = cursor.before;
+  while (k < n && begin[static_cast<std::ptrdiff_t>(k)] <= here) ++k;
+  while (k > 0 && begin[static_cast<std::ptrdiff_t>(k) - 1] > here) --k;
   const float *along = beams.forward.data() + 4 * at, *against = beams.backward.data() + 4 * at;
   // Between particles k - 1 and k. Outside all, light fades out to what enters or leaves within about the width of a pixel.
   const auto width = static_cast<float>(line[line_pixel]);
   if (k == 0) {
     const auto away = static_cast<float>(begin[0] - here);
     const float share = away / (away + width);
+    add_scaled(sum, sky, forward * share);
     add_scaled(sum, along, forward * (1 - share));
     add_scaled(sum, against + 4, backward * (1 - share));
     add_scaled(sum, against, backward * share);
@@ -94,6 +111,7 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
     add_scaled(sum, along + 4 * (n - 1), forward * (1 - share));
     add_scaled(sum, along + 4 * n, forward * share);
     add_scaled(sum, against + 4 * n, backward * (1 - share));
+    add_scaled(sum, sky + 4, backward * share);
     return;
   }
   const std::int32_t before = begin[static_cast<std::ptrdiff_t>(k) - 1], after = begin[static_cast<std::ptrdiff_t>(k)];
@@ -103,6 +121,10 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
   add_scaled(sum, against + 4 * k, backward * (1 - share));
   add_scaled(sum, against + 4 * (k + 1), backward * share);
 }
+
+// Between nodes lookups are linear, and have the mean of what is there to fourth order with nodes that are lower by a twelfth of
+// their second differences; not below a half.
+float sharpened(float value, float second_difference) { return std::max(value - second_difference / 12, 0.5F * value); }
 
 // Unit direction of a line.
 glm::vec3 direction_of(const std::int32_t* line) {
@@ -121,6 +143,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
   const std::int32_t* lines = view.integers(a.lines);
   const float *particles = view.floats(a.particles), *sent = view.floats(a.particle_sources);
   std::vector<float> sums(4 * nx * ny * nz, 0.0F);  // rgb and weights
+  std::vector<float> sky(4 * 2 * shape.lines, 0.0F);
+  if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
   std::vector<Beams> beams(chunk);
   for (std::size_t first = 0; first < shape.lines; first += chunk) {
     const std::size_t count = std::min(chunk, shape.lines - first);
@@ -128,46 +152,61 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
       const std::size_t l = first + static_cast<std::size_t>(n), of_a_way = isotropic ? 0 : 4 * shape.particles;
       const std::int32_t* line = lines + line_fields * l;
       beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), line, l), line, particles,
-                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), shape);
+                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), sky.data() + 8 * l, shape);
     });
     workers.each(static_cast<int>(ny * nz), [&](int row, int) {
       const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny;
+      std::vector<Node> nodes(nx);
       for (std::size_t i = 0; i < nx; ++i) {
-        Node node;
         const std::size_t number[3] = {i, j, k};
-        for (int axis = 0; axis < 3; ++axis)
-          node.place[axis] = static_cast<std::int32_t>(a.first[axis]) + a.stride * static_cast<std::int32_t>(number[axis]);
-        if (!isotropic) {
-          const glm::vec3 way = a.camera - glm::vec3(node.place[0], node.place[1], node.place[2]) * a.unit;
-          const f32::Float squared = f32::fma(way.x, way.x, f32::fma(way.y, way.y, way.z * way.z));
-          node.to_camera = way * (1 / f32::sqrt(f32::max(squared, 1e-30)).v);
+        for (int axis = 0; axis < 3; ++axis) {
+          nodes[i].place[axis] = static_cast<std::int32_t>(a.first[axis]) + a.stride * static_cast<std::int32_t>(number[axis]);
         }
-        float* out = sums.data() + 4 * (i + nx * (j + ny * k));
-        float sum[3] = {out[0], out[1], out[2]};
-        for (std::size_t n = 0; n < count; ++n) {
-          const std::int32_t* line = lines + line_fields * (first + n);
+        if (isotropic) continue;
+        const std::int32_t(&place)[3] = nodes[i].place;
+        const glm::vec3 way = a.camera - glm::vec3(place[0], place[1], place[2]) * a.unit;
+        const f32::Float squared = f32::fma(way.x, way.x, f32::fma(way.y, way.y, way.z * way.z));
+        nodes[i].to_camera = way * (1 / f32::sqrt(f32::max(squared, 1e-30)).v);
+      }
+      // Each node has its sum over the lines in their order; nodes next to each other lie next to each other on a line.
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::int32_t* line = lines + line_fields * (first + n);
+        const Links links(shape, view.floats(a.links), line, first + n);
+        const glm::vec3 w = direction_of(line);
+        Cursor cursor;
+        for (std::size_t i = 0; i < nx; ++i) {
           float forward = 1, backward = 1;
           if (!isotropic) {
-            const glm::vec3 w = direction_of(line), t = node.to_camera;
+            const glm::vec3& t = nodes[i].to_camera;
             const f32::Float mu = f32::fma(w.x, t.x, f32::fma(w.y, t.y, w.z * t.z));
             const int kind = static_cast<int>(a.phase.kind);
             forward = f32::phase_value(kind, a.phase.g, mu).v;
             backward = f32::phase_value(kind, a.phase.g, -mu).v;
           }
+          float* out = sums.data() + 4 * (i + nx * (j + ny * k));
+          float sum[3] = {out[0], out[1], out[2]};
+          add_beams(links, line, beams[n], sky.data() + 8 * (first + n), nodes[i], forward, backward, cursor, sum);
+          std::copy_n(sum, 3, out);
           out[3] += forward + backward;
-          add_beams(Links(shape, view.floats(a.links), line, first + n), line, beams[n], node, forward, backward, sum);
         }
-        std::copy_n(sum, 3, out);
       }
     });
   }
   float* out = view.made(a.sources);
   for (int axis = 0; axis < 3; ++axis) out[axis] = a.nodes[axis];
   out[3] = 0;
-  const std::size_t all = nx * ny * nz;
+  const std::size_t all = nx * ny * nz, size[3] = {nx, ny, nz}, step[3] = {1, nx, nx * ny};
   for (std::size_t n = 0; n < all; ++n) {
+    const std::size_t number[3] = {n % nx, n / nx % ny, n / nx / ny};
     for (std::size_t c = 0; c < 3; ++c) {
-      const float value = sums[4 * n + c] / sums[4 * n + 3];
+      const auto mean = [&](std::size_t node) { return sums[4 * node + c] / sums[4 * node + 3]; };
+      const float here = mean(n);
+      float bent = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (number[axis] == 0 || number[axis] + 1 == size[axis]) continue;
+        bent += mean(n - step[axis]) - 2 * here + mean(n + step[axis]);
+      }
+      const float value = sharpened(here, bent);
       out[4 + all * c + n] = value;
       out[3] = std::max(out[3], value);
     }

@@ -125,13 +125,13 @@ glm::vec3 axis_of(const std::int32_t* a) {
 float dot_of(const glm::vec3& a, const glm::vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 struct Worker {
+  // In a pixel by place along the line, then by number.
   struct Place {
-    std::int32_t pixel, along, particle;
-    bool operator<(const Place& b) const {
-      if (pixel != b.pixel) return pixel < b.pixel;
-      return along != b.along ? along < b.along : particle < b.particle;
-    }
+    std::int32_t along, particle;
+    bool operator<(const Place& b) const { return along != b.along ? along < b.along : particle < b.particle; }
   };
+  std::vector<std::size_t> pixels;  // of each particle
+  std::vector<std::size_t> ends;    // of each pixel's places
   std::vector<Place> places;
   std::vector<AcrossLine> gaussians;
   std::vector<float> along, erfs, depths;
@@ -142,14 +142,25 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
   const NetworkShape shape = a.shape();
   const float unit = a.unit / lattice_length;
   w.places.resize(shape.particles);
+  w.pixels.resize(shape.particles);
+  w.ends.assign(shape.slots + 1, 0);
+  const auto place_of = [&](std::size_t v, std::int32_t(&p)[3]) {
+    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<std::int32_t>(particles[axis * shape.particles + v]);
+  };
   for (std::size_t v = 0; v < shape.particles; ++v) {
     std::int32_t p[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<std::int32_t>(particles[axis * shape.particles + v]);
+    place_of(v, p);
     const std::int32_t column = (dot_of(line + line_across, p) - line[line_begin]) / line[line_pixel];
     const std::int32_t row = (dot_of(line + line_down, p) - line[line_begin + 1]) / line[line_pixel + 1];
-    w.places[v] = {column + line[line_pixels] * row, dot_of(line + line_direction, p), static_cast<std::int32_t>(v)};
+    w.pixels[v] = static_cast<std::size_t>(column + line[line_pixels] * row);
+    ++w.ends[w.pixels[v] + 1];
   }
-  std::sort(w.places.begin(), w.places.end());
+  for (std::size_t c = 0; c < shape.slots; ++c) w.ends[c + 1] += w.ends[c];  // where pixels begin, for now
+  for (std::size_t v = 0; v < shape.particles; ++v) {
+    std::int32_t p[3];
+    place_of(v, p);
+    w.places[w.ends[w.pixels[v]]++] = {dot_of(line + line_direction, p), static_cast<std::int32_t>(v)};
+  }
 
   LineList list{};
   for (int i = 0; i < 3; ++i) list.axes[i] = axis_of(line + (i == 0 ? line_across : i == 1 ? line_down : line_direction));
@@ -165,8 +176,8 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
   std::size_t first = 0;
   for (std::size_t c = 0; c < shape.slots; ++c) {
     begin[c] = static_cast<float>(first);
-    std::size_t last = first;
-    while (last < shape.particles && w.places[last].pixel == static_cast<std::int32_t>(c)) ++last;
+    const std::size_t last = w.ends[c];
+    std::sort(w.places.begin() + static_cast<std::ptrdiff_t>(first), w.places.begin() + static_cast<std::ptrdiff_t>(last));
     const std::size_t n = last - first, at = first + c;
     if (n > 0) {
       w.along.assign(n + 2 * padding, 0.0F);

@@ -168,7 +168,7 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
       }
       if (const auto* a = std::get_if<NetworkIteration>(&steps[i].what)) {
         const std::vector<std::byte> content = runner_->content(a->residuals);
-        step.residuals = a->history({reinterpret_cast<const float*>(content.data()), content.size() / sizeof(float)});
+        a->tell({reinterpret_cast<const float*>(content.data()), content.size() / sizeof(float)}, step);
       }
       for (const auto& [handle, last] : last_use) {
         const auto held = runner_->images.find(handle);

@@ -19,8 +19,9 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
     r.each(r.compute("gpu/network_iteration.glsl", {define, kind}), items, network_group);
   };
 
-  // Changes, weights of each line's links, and what becomes of them.
-  r.reserve(words_number, network_bytes(r, sizeof(float) * (2 + n * shape.lines + sources)));
+  // What changed of each particle and the sum of what it sends; weights of each line's links, and what becomes of them;
+  // the sky.
+  r.reserve(words_number, network_bytes(r, sizeof(float) * (2 * n + n * shape.lines + sources + 4 * directions)));
   network_bytes(r, a.sources.bytes);
   r.storage(0, a.links);
   r.storage(3, a.sources);
@@ -33,21 +34,31 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
     r.bind(7, matrix_number);
     each("PHASES", directions * directions);
   }
+  const std::size_t sky_at = sizeof(float) * (2 * n + n * shape.lines + sources);
+  const std::vector<float> no_sky(a.sky ? 0 : 4 * directions, 0.0F);
+  if (a.sky) {
+    r.copy(r.buffer_name(a.sky), words_number, sky_at, 4 * sizeof(float) * directions);
+  } else {
+    r.write_storage(words_number, sky_at, std::as_bytes(std::span(no_sky)));
+  }
   each("START", sources);
   each("WEIGHTS", shape.lines * shape.slots);
   each("SHARES", sources);
   std::vector<float> residuals(1 + static_cast<std::size_t>(a.iterations), 0.0F);
+  std::vector<float> changes(2 * n);
   for (int k = 0; k < a.iterations; ++k) {
     progress.check();
-    float state[2] = {0, 0};
-    r.write_storage(words_number, 0, std::as_bytes(std::span(state)));
     each("SWEEP", (isotropic ? shape.lines : directions) * shape.slots);
     each("SCATTER", sources);
-    r.read_storage(words_number, std::as_writable_bytes(std::span(state)));
-    const float residual = state[0] / std::max(state[1], 1e-30F);
-    residuals[0] = static_cast<float>(k + 1);
-    residuals[static_cast<std::size_t>(1 + k)] = residual;
-    if (residual <= a.tolerance) break;
+    each("SUMS", n);
+    r.read_storage(words_number, std::as_writable_bytes(std::span(changes)));
+    double change = 0, sum = 0;
+    for (std::size_t v = 0; v < n; ++v)
+      change += static_cast<double>(changes[2 * v]), sum += static_cast<double>(changes[2 * v + 1]);
+    const auto made = static_cast<std::size_t>(k + 1);
+    residuals[0] = static_cast<float>(made);
+    residuals[made] = static_cast<float>(change / std::max(sum, 1e-30));
+    if (a.left_out(std::span(residuals).subspan(1, made)) <= a.tolerance) break;
   }
   r.fill(residuals_number, std::as_bytes(std::span(residuals)));
   r.copy_back(residuals_number, r.buffer_name(a.residuals), a.residuals.bytes);

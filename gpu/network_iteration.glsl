@@ -1,25 +1,35 @@
-// Six programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
+// Seven programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
 // particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by. SWEEP: light along
-// a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC.
+// a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC. SUMS: what changed of
+// a particle, and what it sends, over all directions and channels.
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/network.glsl"
 
 layout(std430, binding = 0) readonly buffer LinkBuffer { float links[]; };
 layout(std430, binding = 3) buffer SourceBuffer { vec4 sources[]; };
-layout(std430, binding = 4) buffer TakenBuffer { vec4 taken[]; };  // of each line and particle, or each direction and particle
-layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // largest change, largest source, weights, shares
+layout(std430, binding = 4) buffer TakenBuffer { vec4 taken[]; };  // of each line and particle, or each direction and particle; a: a source's change
+layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // change and sum of each particle, weights, shares, sky
 layout(std430, binding = 6) readonly buffer FirstBuffer { vec4 first_sources[]; };
 layout(std430, binding = 7) buffer MatrixBuffer { float matrix_values[]; };
 
-int weight_at(int line, int v) { return 2 + line * particle_count + v; }
-int share_at(int k) { return 2 + line_count * particle_count + k; }
+int weight_at(int line, int v) { return 2 * particle_count + line * particle_count + v; }
+int share_at(int k) { return 2 * particle_count + line_count * particle_count + k; }
+#ifdef ISOTROPIC
+int sky_at(int d) { return share_at(particle_count) + 4 * d; }
+#else
+int sky_at(int d) { return share_at(2 * line_count * particle_count) + 4 * d; }
+#endif
+vec3 sky_of(int d) {
+  int k = sky_at(d);
+  return vec3(uintBitsToFloat(words[k]), uintBitsToFloat(words[k + 1]), uintBitsToFloat(words[k + 2]));
+}
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
 float area_of(int line) { return float(line_field(line, 11)) * float(line_field(line, 12)) * 9.094947017729282e-13; }  // 2^-40
 
 // Light along one way of a list of n particles from `record` on; what they take is set, or added to.
 void sweep(int line, int record, int n, bool backward, int source, int to, bool adds) {
-  vec3 beam = vec3(0.0);
+  vec3 beam = sky_of(2 * line + (backward ? 1 : 0));
   vec3 waiting = vec3(0.0);  // of the particle that the last link led to
   float area = area_of(line);
   for (int step = 0; step <= n; ++step) {
@@ -126,7 +136,23 @@ void main() {
   vec3 now = first_sources[n].xyz + sum;
   vec3 change = abs(now - sources[n].xyz);
   sources[n] = vec4(now, 0.0);
-  atomicMax(words[0], floatBitsToUint(max(change.x, max(change.y, change.z))));
-  atomicMax(words[1], floatBitsToUint(max(now.x, max(now.y, now.z))));
+  taken[n].w = change.x + change.y + change.z;
+#endif
+#ifdef SUMS
+  if (n >= particle_count) return;
+  float change = 0.0;
+  float sum = 0.0;
+#ifdef ISOTROPIC
+  int directions = 1;
+#else
+  int directions = 2 * line_count;
+#endif
+  for (int d = 0; d < directions; ++d) {
+    vec4 now = sources[d * particle_count + n];
+    change += taken[d * particle_count + n].w;
+    sum += now.x + now.y + now.z;
+  }
+  words[2 * n] = floatBitsToUint(change);
+  words[2 * n + 1] = floatBitsToUint(sum);
 #endif
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include "gpu/network.h"
 
@@ -25,6 +26,12 @@ void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
   r.storage(6, a.sources);
   const float most = 0;
   r.fill(most_number, std::as_bytes(std::span(&most, 1)));
+  if (a.sky) {
+    r.storage(7, a.sky);
+  } else {
+    const std::vector<float> no_sky(8 * shape.lines, 0.0F);
+    r.storage(7, std::as_bytes(std::span(no_sky)));
+  }
   const auto each = [&](const char* define, std::size_t items, std::size_t first) {
     progress.check();
     Program& program = r.compute("gpu/source_function.glsl", {define});

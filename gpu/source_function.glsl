@@ -9,7 +9,11 @@ layout(std430, binding = 3) readonly buffer SourceBuffer { vec4 particle_sources
 layout(std430, binding = 4) buffer BeamBuffer { vec4 beams[]; };  // of each record: along the line, against it
 layout(std430, binding = 5) buffer SumBuffer { vec4 sums[]; };    // rgb and weights
 layout(std430, binding = 6) buffer TableBuffer { float table_of_sources[]; };
+#if defined(BEAMS) || defined(NODES)
+layout(std430, binding = 7) readonly buffer SkyBuffer { vec4 sky[]; };  // of each direction
+#else
 layout(std430, binding = 7) buffer MostBuffer { uint most; };
+#endif
 
 uniform vec3 first_node;
 uniform vec3 nodes;
@@ -17,14 +21,16 @@ uniform int stride;
 uniform int first_line;  // of this dispatch
 uniform int end_line;
 
+vec3 mean_of(int node) { return sums[node].xyz / sums[node].w; }
 int dot_of(ivec3 a, ivec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
 int beam_at(int line, int record, int way) { return 2 * ((line - first_line) * (particle_count + slots) + record) + way; }
 int along_of(int line, int record) { return dot_of(line_axis(line, 0), ivec3(particle_rgb(0, particle_of(line, record)))); }
 
+#if defined(BEAMS) || defined(NODES)
 void sweep(int line, int at, int n, int way) {
   int source = phase_kind == 0 ? 0 : (2 * line + way) * particle_count;
-  vec3 beam = vec3(0.0);
+  vec3 beam = sky[2 * line + way].xyz;
   for (int step = 0; step <= n; ++step) {
     int k = at + (way == 1 ? n - step : step);
     vec3 a = particle_sources[source + particle_of(line, k == at ? k : k - 1)].xyz;
@@ -36,17 +42,19 @@ void sweep(int line, int at, int n, int way) {
 
 // What arrives at a place along one bundle, each way with its weight.
 vec3 arriving(int line, ivec3 place, float forward, float backward) {
+  vec3 into = sky[2 * line].xyz;
+  vec3 back = sky[2 * line + 1].xyz;
   ivec2 pixel;
   for (int k = 0; k < 2; ++k) {
     int across = dot_of(line_axis(line, 3 + 3 * k), place) - line_field(line, 9 + k);
-    if (across < 0) return vec3(0.0);
+    if (across < 0) return forward * into + backward * back;
     pixel[k] = across / line_field(line, 11 + k);
-    if (pixel[k] >= line_field(line, 13 + k)) return vec3(0.0);
+    if (pixel[k] >= line_field(line, 13 + k)) return forward * into + backward * back;
   }
   int c = pixel.x + line_field(line, 13) * pixel.y;
   int first = int(links[begin_at(line, c)]);
   int n = int(links[begin_at(line, c + 1)]) - first;
-  if (n == 0) return vec3(0.0);
+  if (n == 0) return forward * into + backward * back;
   int at = first + c;
   int here = dot_of(line_axis(line, 0), place);
   int k = 0;  // how many particles lie before it
@@ -63,20 +71,21 @@ vec3 arriving(int line, ivec3 place, float forward, float backward) {
   if (k == 0) {
     float away = float(along_of(line, at) - here);
     float share = away / (away + width);
-    return forward * (1.0 - share) * beams[beam_at(line, at, 0)].xyz + backward * (1.0 - share) * beams[beam_at(line, at + 1, 1)].xyz +
+    return forward * share * into + forward * (1.0 - share) * beams[beam_at(line, at, 0)].xyz + backward * (1.0 - share) * beams[beam_at(line, at + 1, 1)].xyz +
            backward * share * beams[beam_at(line, at, 1)].xyz;
   }
   if (k == n) {
     float away = float(here - along_of(line, at + n - 1));
     float share = away / (away + width);
     return forward * (1.0 - share) * beams[beam_at(line, at + n - 1, 0)].xyz + forward * share * beams[beam_at(line, at + n, 0)].xyz +
-           backward * (1.0 - share) * beams[beam_at(line, at + n, 1)].xyz;
+           backward * (1.0 - share) * beams[beam_at(line, at + n, 1)].xyz + backward * share * back;
   }
   int before = along_of(line, at + k - 1);
   float share = float(here - before) / float(along_of(line, at + k) - before);
   return forward * mix(beams[beam_at(line, at + k - 1, 0)].xyz, beams[beam_at(line, at + k, 0)].xyz, share) +
          backward * mix(beams[beam_at(line, at + k, 1)].xyz, beams[beam_at(line, at + k + 1, 1)].xyz, share);
 }
+#endif
 
 void main() {
   int n = item();
@@ -112,7 +121,14 @@ void main() {
 #endif
 #ifdef MEANS
   if (n >= all) return;
-  vec3 mean = sums[n].xyz / sums[n].w;
+  vec3 mean = mean_of(n);
+  vec3 bent = vec3(0.0);  // second differences
+  ivec3 number = ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
+  ivec3 step = ivec3(1, size.x, size.x * size.y);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (number[axis] > 0 && number[axis] + 1 < size[axis]) bent += mean_of(n - step[axis]) - 2.0 * mean + mean_of(n + step[axis]);
+  }
+  mean = max(mean - bent / 12.0, 0.5 * mean);
   for (int c = 0; c < 3; ++c) table_of_sources[4 + all * c + n] = mean[c];
   atomicMax(most, floatBitsToUint(max(mean.x, max(mean.y, mean.z))));
 #endif

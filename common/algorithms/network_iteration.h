@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,18 +18,38 @@ namespace airlight {
 // particle's opacity is that of the link before it in whatever direction, and energy is lost.
 struct NetworkIteration {
   Buffer particles, lines, links, first;
+  Buffer sky;  // of an environment, optional: what light begins with beyond the lists' ends [W/m^2/sr], laid out as `first` of
+               // one particle
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
-  float tolerance = 1e-3F;  // it stops where no source changes by more than that, beside the largest
+  float tolerance = 1e-3F;  // it stops where left_out() is no more than that
   int iterations = 100;     // at most, > 0
 
   Buffer sources;    // laid out as `first`: all that a particle sends
-  Buffer residuals;  // how many rounds there were, then the change after each, 1 + iterations floats
+  Buffer residuals;  // how many rounds there were, then the change in each, 1 + iterations floats
 
-  // What the buffer of residuals says.
-  static std::vector<float> history(std::span<const float> residuals) {
-    return {residuals.begin() + 1, residuals.begin() + 1 + static_cast<std::ptrdiff_t>(residuals[0])};
+  // About how much more all sources together would be for all the rounds that were not made, beside what they are; `history` is
+  // of the changes in each round, summed over all sources, beside their sum. Of a round each is a share of the one before that
+  // becomes the same for all, from below mostly, and what is left is a geometric series. (The largest change beside the largest
+  // source is not what an image sees: the largest source is next to a lamp, and the farther from it the longer it takes.)
+  static float left_out(std::span<const float> history) {
+    constexpr double rounding = 1.2e-7;  // sums of floats do not grow by less
+    if (history.empty()) return 1;
+    const auto change = static_cast<double>(history.back());
+    if (change <= rounding) return history.back();
+    const double before = (history.size() > 1 ? static_cast<double>(history[history.size() - 2]) : 1) * (1 - change);
+    const double ratio = change / before;
+    return static_cast<float>(change * ratio / std::max(1 - ratio, 1e-6));
+  }
+
+  // What the buffer of residuals says, to the statistics of a step.
+  template <class Stats>
+  void tell(std::span<const float> buffer, Stats& stats) const {
+    const auto history = buffer.subspan(1, static_cast<std::size_t>(buffer[0]));
+    stats.residuals.assign(history.begin(), history.end());
+    stats.left_out = left_out(history);
+    stats.converged = stats.left_out <= tolerance;
   }
 
   NetworkShape shape() const {
@@ -44,6 +65,7 @@ struct NetworkIteration {
     v(in("lines"), s.lines);
     v(in("links"), s.links);
     v(in("first", "W/m^2/sr"), s.first);
+    v(in("sky", "W/m^2/sr"), s.sky);
     v(knob("phase"), s.phase);
     v(knob("particle_count"), s.particle_count);
     v(knob("line_count"), s.line_count);

@@ -14,7 +14,7 @@ namespace airlight {
 // list linear between what it is at them; light straight from the lights is not in it. (The paper splats the particles, which is
 // noise, and means of the particles about a place would be too dark beside a light, where most of them lie deeper in the medium.)
 struct SourceFunction {
-  Buffer particles, lines, links, particle_sources;  // as NetworkIteration's
+  Buffer particles, lines, links, particle_sources, sky;  // as NetworkIteration's
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
@@ -24,7 +24,7 @@ struct SourceFunction {
   int stride = 1;             // of the lattice, from node to node, > 0
   glm::vec3 nodes{2, 2, 2};   // an axis, each at least 2
 
-  Buffer sources;  // [W/m^2/sr] the table of source_in_volume() in common/formulas/network.h
+  Buffer sources;  // [W/m^2/sr] the table of source_in_volume() (common/formulas/network.h), nodes sharpened for its lookups
 
   NetworkShape shape() const {
     const auto side = static_cast<std::size_t>(window);
@@ -42,6 +42,7 @@ struct SourceFunction {
     v(in("lines"), s.lines);
     v(in("links"), s.links);
     v(in("particle_sources", "W/m^2/sr"), s.particle_sources);
+    v(in("sky", "W/m^2/sr"), s.sky);
     v(knob("phase"), s.phase);
     v(knob("particle_count"), s.particle_count);
     v(knob("line_count"), s.line_count);

@@ -61,13 +61,13 @@ DepthVolume parallel_volume(const MediumBox& box, const glm::dvec3& direction, c
 
 }  // namespace
 
-MediumBox medium_box(const Scene& scene, int resolution) {
+MediumBox medium_box(const Scene& scene, int resolution) { return medium_box(scene, resolution, least_lost_depth); }
+
+MediumBox medium_box(const Scene& scene, int resolution, double lost_depth) {
   Extents e;
-  const std::vector<GaussianDensity> gaussians = gaussians_of(scene, {0, 0, 0});
-  std::size_t next = 0;
   for (const Gaussian& g : scene.medium.gaussians) {
     if (!(g.extinction > 0)) continue;
-    const glm::dvec3 reach(static_cast<double>(gaussians[next++].reach));
+    const glm::dvec3 reach(static_cast<double>(gaussian_reach(g, lost_depth)));
     e.add(g.center - reach), e.add(g.center + reach);
   }
   if (scene.medium.grid) {

@@ -21,6 +21,8 @@ struct MediumBox {
 };
 // `resolution`: cells of the longest edge, > 1.
 MediumBox medium_box(const Scene&, int resolution);
+// The same of Gaussians as far as they matter to `lost_depth`, lamps or not.
+MediumBox medium_box(const Scene&, int resolution, double lost_depth);
 
 // The volume of a light's depths, as fine as the box's cells where the medium ends, seen from `origin`.
 DepthVolume depth_volume(const MediumBox&, const LightSource&, const glm::dvec3& origin);

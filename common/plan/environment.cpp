@@ -25,25 +25,6 @@ glm::dvec3 pixel(const Environment& e, int x, int y) {
   return e.radiance * glm::dvec3(e.image->at(x, y, 0), e.image->at(x, y, 1), e.image->at(x, y, 2));
 }
 
-std::vector<float> image_table(const Environment& e) {
-  const Extent extent = extent_of(e);
-  const double turns = e.rotation / 360;
-  std::vector<float> table{static_cast<float>(extent.width), static_cast<float>(extent.height),
-                           static_cast<float>(turns - std::floor(turns)), 0};
-  const auto width = static_cast<std::size_t>(extent.width) + 1;
-  table.resize(4 + width * (3 * static_cast<std::size_t>(extent.height) + 1));
-  float* to = table.data() + 4;
-  for (int y = 0; y < extent.height; ++y) {
-    for (int x = 0; x <= extent.width; ++x) {
-      const glm::dvec3 value = pixel(e, x % extent.width, y);
-      for (int c = 0; c < 3; ++c)
-        to[static_cast<std::size_t>(c) * width + static_cast<std::size_t>(x)] = static_cast<float>(value[c]);
-    }
-    to += 3 * width;
-  }
-  return table;
-}
-
 // Sums over a row of each channel times cos(m azimuth) and sin(m azimuth).
 struct Fourier {
   std::array<std::array<double, order>, 3> cosine{}, sine{};
@@ -131,11 +112,30 @@ void add_lobe(std::vector<float>& table, const EnvironmentHarmonics& from, doubl
 
 }  // namespace
 
-EnvironmentHarmonics environment_harmonics(const Environment& e) { return projected(image_table(e)); }
+std::vector<float> environment_image(const Environment& e) {
+  const Extent extent = extent_of(e);
+  const double turns = e.rotation / 360;
+  std::vector<float> table{static_cast<float>(extent.width), static_cast<float>(extent.height),
+                           static_cast<float>(turns - std::floor(turns)), 0};
+  const auto width = static_cast<std::size_t>(extent.width) + 1;
+  table.resize(4 + width * (3 * static_cast<std::size_t>(extent.height) + 1));
+  float* to = table.data() + 4;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x <= extent.width; ++x) {
+      const glm::dvec3 value = pixel(e, x % extent.width, y);
+      for (int c = 0; c < 3; ++c)
+        to[static_cast<std::size_t>(c) * width + static_cast<std::size_t>(x)] = static_cast<float>(value[c]);
+    }
+    to += 3 * width;
+  }
+  return table;
+}
+
+EnvironmentHarmonics environment_harmonics(const Environment& e) { return projected(environment_image(e)); }
 
 std::vector<float> environment_table(const Environment& e, std::span<const float> shininess,
                                      std::span<const std::shared_ptr<const Brdf>> brdfs) {
-  const std::vector<float> image = image_table(e);
+  const std::vector<float> image = environment_image(e);
   const EnvironmentHarmonics harmonics = projected(image);
   std::vector<float> table;
   add_lobe(table, harmonics, 1);

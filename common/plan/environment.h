@@ -16,6 +16,9 @@ namespace airlight {
 // Coefficients of red, green and blue [W/m^2/sr], of order 6, about +Y as their axis, azimuths from -Z toward +X.
 using EnvironmentHarmonics = std::array<std::array<double, 36>, 3>;
 
+// The table of environment_value().
+std::vector<float> environment_image(const Environment&);
+
 // The projection of the radiance that environment_value() gives onto the harmonics.
 EnvironmentHarmonics environment_harmonics(const Environment&);
 

@@ -77,6 +77,9 @@ class FramePlan {
   // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
   // SurfaceShading, or absent. After the step that makes `transmittance`.
   void shade(Image light_transmittance);
+  // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is added
+  // then. Before the step that makes `airlight`.
+  void scatter_environment_in_fog_alone();
   // Ends the plan: composes the image from `surface` and `airlight`.
   Plan finish();
 
@@ -99,6 +102,7 @@ class FramePlan {
   std::uint64_t transfer_key_ = 0;
   Image surface_, surface_direct_, surface_ambient_, beauty_;
   Image corners_, hidden_diffuse_, hidden_specular_;  // absent where surfaces hide nothing of an environment
+  bool environment_in_fog_alone_ = false;
   Image airlight_;  // with what the medium scatters of an environment; absent where that is nothing
 };
 

@@ -72,6 +72,15 @@ void FramePlan::expect_environment_airlight() {
   airlight = handed_on(next_id_++, Format::rgb32f, 1);
 }
 
+void FramePlan::scatter_environment_in_fog_alone() {
+  environment_in_fog_alone_ = true;
+  if (extinction > 0) return;
+  airlight = airlight_;
+  airlight_ = {};
+  if (!optical_depth.keep) optical_depth = {};
+  plan.skips.push_back({"environment_airlight", "no homogeneous medium, and what else scatters it is in the sources"});
+}
+
 // After the technique's own airlight.
 void FramePlan::add_environment_airlight() {
   if (!airlight_) return;
@@ -94,6 +103,7 @@ void FramePlan::add_environment_airlight() {
     albedo += mass * g.albedo, all += mass;
   }
   if (medium.grid) albedo = medium.grid->albedo, all = 1;  // most of such a medium
+  if (environment_in_fog_alone_) albedo = glm::dvec3(0), all = 1;
   plan.steps.push_back(
       {EnvironmentAirlight{.distance = distance,
                            .optical_depth = optical_depth,

@@ -116,6 +116,12 @@ std::vector<Material> materials_of(const Scene& scene) {
 
 std::vector<GaussianDensity> gaussians_of(const Scene& scene) { return gaussians_of(scene, scene.camera.position); }
 
+float gaussian_reach(const Gaussian& g, double lost_depth) {
+  const double whole = g.extinction * g.radius * std::sqrt(std::numbers::pi);
+  const f32::Float radii = f32::sqrt(f32::log_(std::max(whole, 1.0) / lost_depth));
+  return static_cast<float>(g.radius) * radii.v;
+}
+
 std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& origin, double lost_depth) {
   std::vector<GaussianDensity> gaussians;
   for (const Gaussian& from : scene.medium.gaussians) {
@@ -126,17 +132,12 @@ std::vector<GaussianDensity> gaussians_of(const Scene& scene, const glm::dvec3& 
     to.extinction = static_cast<float>(from.extinction);
     to.albedo = from.albedo;
     to.emission = from.emission;
-    const double whole = from.extinction * from.radius * std::sqrt(std::numbers::pi);
-    const auto reach = [&](double lost) {
-      const f32::Float radii = f32::sqrt(f32::log_(std::max(whole, 1.0) / lost));
-      return to.radius * radii.v;
-    };
-    const double farthest = static_cast<double>(reach(least_lost_depth));
+    const auto farthest = static_cast<double>(gaussian_reach(from, least_lost_depth));
     const bool lamp = std::any_of(scene.lights.begin(), scene.lights.end(), [&](const LightSource& l) {
       return l.type == LightType::point && l.power != glm::dvec3(0) &&
              glm::dot(l.position - from.center, l.position - from.center) < farthest * farthest;
     });
-    to.reach = reach(lamp ? least_lost_depth : lost_depth);
+    to.reach = gaussian_reach(from, lamp ? least_lost_depth : lost_depth);
     gaussians.push_back(to);
   }
   return gaussians;

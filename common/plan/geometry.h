@@ -22,6 +22,8 @@ std::vector<Material> materials_of(const Scene&);
 // stands little is bright: about such a place `least_lost_depth` holds.
 constexpr double least_lost_depth = 1e-5;
 std::vector<GaussianDensity> gaussians_of(const Scene&);
+// [m] Of one, whatever stands there.
+float gaussian_reach(const Gaussian&, double lost_depth);
 // Seen from a place of one's own, not from the camera.
 std::vector<GaussianDensity> gaussians_of(const Scene&, const glm::dvec3& origin, double lost_depth = least_lost_depth);
 Light light_of(const LightSource&, const glm::dvec3& origin);

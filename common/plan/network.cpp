@@ -165,18 +165,27 @@ std::vector<float> network_particles(const Scene& scene, const NetworkFrame& fra
   return planes;
 }
 
-std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window) {
-  const std::size_t n = particles.size() / particle_planes;
-  std::vector<std::int32_t> lines(line_fields * static_cast<std::size_t>(count), 0);
+std::vector<glm::dvec3> network_directions(int count) {
   // Cosine and sine of the golden angle: turned on by it, without a cosine that the C library could round differently.
   constexpr double turn_c = -0.7373688780783197, turn_s = 0.6754902942615238;
+  std::vector<glm::dvec3> directions;
   double c = 1, s = 0;
   for (int l = 0; l < count; ++l) {
     const double z = 1 - (l + 0.5) / count, r = std::sqrt(1 - z * z);
-    const glm::dvec3 direction(r * c, r * s, z);
+    directions.emplace_back(r * c, r * s, z);
     const double next_c = c * turn_c - s * turn_s;
     s = s * turn_c + c * turn_s;
     c = next_c;
+  }
+  return directions;
+}
+
+std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window) {
+  const std::size_t n = particles.size() / particle_planes;
+  std::vector<std::int32_t> lines(line_fields * static_cast<std::size_t>(count), 0);
+  const std::vector<glm::dvec3> directions = network_directions(count);
+  for (int l = 0; l < count; ++l) {
+    const glm::dvec3& direction = directions[static_cast<std::size_t>(l)];
     const glm::dvec3 up = std::fabs(direction.y) < 0.95 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(up, direction)), down = glm::cross(direction, across);
     std::int32_t* line = lines.data() + line_fields * static_cast<std::size_t>(l);

@@ -27,9 +27,16 @@ double network_mass(const Scene&, const NetworkFrame&);
 // by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones.
 std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count);
 
-// `count` bundles of lines whose directions, both ways, are evenly spread (spherical Fibonacci points on half a sphere), each
-// with a window of window^2 pixels at most about the particles.
+// Directions of `count` bundles of lines, which are evenly spread over the sphere with the opposite ones: spherical Fibonacci
+// points on half of it.
+std::vector<glm::dvec3> network_directions(int count);
+
+// The bundles, each with a window of window^2 pixels at most about the particles.
 std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window);
+
+// What comes of an environment along each bundle [W/m^2/sr], rgb and an unused float, that which goes along the lines first: the
+// mean over the directions that are nearest to it, so that all of the environment comes, suns included.
+std::vector<float> network_sky(const Environment&, int line_count);
 
 // Both as uploads under two handles from `first_id` on.
 std::vector<Plan::Upload> network_uploads(const Scene&, const MediumBox&, int particles, int lines, int window,

@@ -47,10 +47,10 @@ struct AngleAtLight {
 }  // namespace
 
 Paths::Paths(const RelativeMedium& medium, const Visibility& visibility, const std::vector<RelativeLight>& lights,
-             const PathSettings& settings)
-    : medium_(medium), visibility_(visibility), lights_(lights), settings_(settings) {
+             const EnvironmentLighting* environment, const PathSettings& settings)
+    : medium_(medium), visibility_(visibility), lights_(lights), environment_(environment), settings_(settings) {
   near_ = infinity;
-  if (!(medium.extinction > 0)) return;
+  if (!(medium.extinction > 0) || environment) return;
   double farthest = 0;
   for (const RelativeLight& light : lights) {
     if (light.directional && light.power != glm::dvec3(0)) return;
@@ -112,7 +112,17 @@ glm::dvec3 Paths::scattered(const LineInMedium& line, const Vertex& v, const Rel
   return scattered_at(line, t, at_flight ? v.scattering : line.scattering(t), light) / density;
 }
 
-void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec3>& of_light) const {
+// One sample of what is scattered along the line at t of the environment, per unit of scattering.
+glm::dvec3 Paths::scattered_environment(const LineInMedium& line, double t, Random& random) const {
+  const ScatteredDirection from = scattered_direction(medium_.phase, line.direction(), random);
+  LightSource source;
+  source.type = LightType::directional;
+  source.direction = -from.direction;
+  const double depth = depth_to_light(medium_, line.at(t), {source, glm::dvec3(0)}, 0);
+  return from.weight * std::exp(-depth) * environment_->radiance(from.direction);
+}
+
+void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec3>& of_light, glm::dvec3& of_environment) const {
   std::optional<LineInMedium> flight;  // after the first vertex
   glm::dvec3 weight(1);
   double first = 0;  // largest weight after the first vertex
@@ -125,6 +135,8 @@ void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec
         if (lights_[i].power != glm::dvec3(0)) of_light[i] += weight * lights_[i].power * scattered(line, v, lights_[i], random);
       }
     }
+    if (environment_ && (order > 1 || settings_.single))
+      of_environment += weight * (v.met / v.extinction * v.scattering) * scattered_environment(line, v.t, random);
     if (order == settings_.max_bounces) return;
     weight *= v.met / v.extinction * v.scattering;
     if (order == 1) first = largest(weight);
@@ -153,9 +165,10 @@ PathEstimate Paths::along(const LineInMedium& view, const glm::dvec2& at, const 
     if (stop && path % 64 == 0) stop->check();
     std::fill(of_light.begin(), of_light.end(), glm::dvec3(0));
     Random random(key, static_cast<std::uint64_t>(path));
-    walk(view, random, of_light);
     glm::dvec3 sum(0);
+    walk(view, random, of_light, sum);
     const double n = path + 1;
+    estimate.of_environment += (sum - estimate.of_environment) / n;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       sum += of_light[i];
       estimate.of_light[i] += (of_light[i] - estimate.of_light[i]) / n;

@@ -1,8 +1,9 @@
 // Multiple scattering by random paths in double, without bias.
 //
-// What is transported: light of the lamps that the medium scatters n times, n = 1..max_bounces, the last time toward the camera.
-// Surfaces that cast shadows end paths and block lights, black on this account: light that they reflect into the medium and light
-// that the medium scatters more than once onto them are not in it, nor is scattered ambient or emission.
+// What is transported: light of the lamps that the medium scatters n times, n = 1..max_bounces, the last time toward the camera;
+// and light of an environment, which arrives unattenuated by the homogeneous part and is hidden by nothing. Surfaces that cast
+// shadows end paths and block lights, black on this account: light that they reflect into the medium and light that the medium
+// scatters more than once onto them are not in it, nor is scattered ambient or emission.
 //
 // A path starts along the view ray; at each vertex it goes on by the phase function. The free flight is drawn by inverting the
 // exact optical depth (LineInMedium::place()), given that it ends in the medium, whose probability is the path's weight. What a
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "common/progress.h"
+#include "common/reference/environment.h"
 #include "common/reference/line.h"
 #include "common/reference/random.h"
 #include "common/reference/visibility.h"
@@ -33,13 +35,15 @@ struct PathSettings {
 // Means over a pixel's paths [W/m^2/sr].
 struct PathEstimate {
   std::vector<glm::dvec3> of_light;
+  glm::dvec3 of_environment{0};
   glm::dvec3 standard_error{0};  // of their sum
 };
 
 class Paths {
  public:
-  // All must outlive this. Lights of no power are given to keep the order.
-  Paths(const RelativeMedium&, const Visibility&, const std::vector<RelativeLight>&, const PathSettings&);
+  // All must outlive this. Lights of no power are given to keep the order; without an environment it is null.
+  Paths(const RelativeMedium&, const Visibility&, const std::vector<RelativeLight>&, const EnvironmentLighting*,
+        const PathSettings&);
 
   // The light that arrives along a line from the camera. `at` names the stream of random numbers, a pixel's place in the image.
   // Throws Interrupted when `stop` (may be null) asks for it.
@@ -52,7 +56,8 @@ class Paths {
     glm::dvec3 scattering{0};
     double met = 0;  // probability that a flight along the line ends in the medium
   };
-  void walk(const LineInMedium&, Random&, std::vector<glm::dvec3>& of_light) const;
+  void walk(const LineInMedium&, Random&, std::vector<glm::dvec3>& of_light, glm::dvec3& of_environment) const;
+  glm::dvec3 scattered_environment(const LineInMedium&, double t, Random&) const;
   Vertex free_flight(const LineInMedium&, Random&) const;
   glm::dvec3 scattered(const LineInMedium&, const Vertex&, const RelativeLight&, Random&) const;
   glm::dvec3 scattered_at(const LineInMedium&, double t, const glm::dvec3& scattering, const RelativeLight&) const;
@@ -61,6 +66,7 @@ class Paths {
   const RelativeMedium& medium_;
   const Visibility& visibility_;
   const std::vector<RelativeLight>& lights_;
+  const EnvironmentLighting* environment_;
   PathSettings settings_;
   double near_ = 0;  // [m] of importance(); infinite where it is 1
 };

@@ -28,6 +28,11 @@ Reference::Reference(const Scene& scene, const ReferenceSettings& settings)
             "at most 1000 or an albedo below 1");
       }
     }
+    if (environment_) {
+      throw InputError(
+          "max_bounces: fog without bounds that absorbs nothing scatters an environment without end, expected at most 1000 or an "
+          "albedo below 1");
+    }
   }
   forward_ = glm::normalize(scene.camera.look_at - scene.camera.position);
   right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
@@ -185,15 +190,17 @@ void Reference::add_airlight(const RayInMedium& ray, const glm::dvec2& at, Refer
   }
   if (settings_.any_paths()) {
     const Paths paths(medium_, visibility_, lights_,
+                      environment_ ? &*environment_ : nullptr,
                       {settings_.max_bounces, settings_.paths, settings_.single_by_paths, settings_.shadows, settings_.seed});
     const PathEstimate more = paths.along(ray, at, stop);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       pixel.airlight_of_light[i] += more.of_light[i];
       pixel.airlight += more.of_light[i];
     }
+    pixel.airlight += more.of_environment;
     pixel.standard_error = more.standard_error;
   }
-  if (environment_ && !medium_.empty()) {
+  if (environment_ && !medium_.empty() && !settings_.single_by_paths) {
     const Integral part =
         environment_->scattered([&](const RelativeLight& l) { return ray.scattered(l, {}, settings_.tolerance); });
     pixel.airlight += part.value;

@@ -62,11 +62,11 @@ struct ReferenceParts {
 // once (or up to max_bounces times) in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least
 // distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
 // illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). An
-// environment's light is hidden by surfaces on its way to others, and by nothing on its way into the medium, which scatters it
-// once whatever max_bounces. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// environment's light is hidden by surfaces on its way to others, and by nothing on its way into the medium. Emission of a
+// Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
-  // Throws InputError where a directional light and homogeneous fog of albedo 1 have no sum of so many orders.
+  // Throws InputError where a directional light or an environment and homogeneous fog of albedo 1 have no sum of so many orders.
   explicit Reference(const Scene&, const ReferenceSettings& = {});
 
   // (x, y) in pixels from the left and the top, centres at + 0.5. Throws Interrupted when `stop` asks for it.

@@ -5,11 +5,14 @@
 #include <limits>
 #include <string>
 
+#include "common/plan/environment.h"
 #include "common/plan/frame.h"
+#include "common/plan/hash.h"
 #include "common/plan/network.h"
 #include "common/plan/particle_splats.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/upload.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -29,6 +32,14 @@ int window_of(int particles) {
   return side;
 }
 
+Knob scattered_environment_knob() {
+  Knob knob = environment_knob();
+  knob.meaning =
+      "an environment's light that Gaussians and grids scatter in all orders and fog once; all of it once, as Zhou et al. "
+      "print it for the isotropic phase function; or none";
+  return knob;
+}
+
 enum : std::uint32_t {
   voxels_id = FramePlan::first_own_id,
   volumes_id,
@@ -40,6 +51,7 @@ enum : std::uint32_t {
   particle_sources_id,
   residuals_id,
   sources_id,
+  sky_id,
   samples_id,
   splats_id = samples_id + sampled_airlight_ids
 };
@@ -88,6 +100,20 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   network.links = {{links_id}, bytes(network.shape().links())};
   frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
+  // Published and off are the other techniques' step and nothing.
+  Buffer sky;
+  if (scene.environment && knobs.choice("environment_airlight") == "on") {
+    Hash key;
+    key.add(std::string_view("network sky"));
+    key.add(environment_key(*scene.environment, {}));
+    key.add(lines);
+    frame.plan.uploads.push_back(
+        table_upload({{sky_id}, bytes(8 * static_cast<std::size_t>(lines))}, key.value(),
+                     [environment = *scene.environment, lines] { return network_sky(environment, lines); }));
+    sky = frame.plan.uploads.back().buffer;
+    frame.scatter_environment_in_fog_alone();
+  }
+
   const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : 2 * static_cast<std::size_t>(lines));
   ParticleLight light{.particles = network.particles,
                       .lines = network.lines,
@@ -108,6 +134,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                                    .lines = network.lines,
                                    .links = network.links,
                                    .first = light.first,
+                                   .sky = sky,
                                    .phase = medium.phase,
                                    .particle_count = particles,
                                    .line_count = lines,
@@ -128,6 +155,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                         .lines = network.lines,
                         .links = network.links,
                         .particle_sources = iteration.sources,
+                        .sky = sky,
                         .phase = medium.phase,
                         .particle_count = particles,
                         .line_count = lines,
@@ -135,10 +163,13 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                         .unit = unit,
                         .sources = {}};
   if (!isotropic) source.camera = scene.camera.position - lattice.middle;
-  const glm::dvec3 corner = glm::floor((box.corner - lattice.middle) / lattice.unit);
+  // Finer than all of the medium would be: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
+  // most.
+  const MediumBox inner = medium_box(scene, static_cast<int>(knobs.number("resolution")), 0.01);
+  const glm::dvec3 corner = glm::floor((inner.corner - lattice.middle) / lattice.unit);
   source.first = corner;
-  source.stride = static_cast<int>(std::ceil(box.cell / lattice.unit));
-  source.nodes = glm::vec3(box.cells + 1);
+  source.stride = static_cast<int>(std::ceil(inner.cell / lattice.unit));
+  source.nodes = glm::vec3(inner.cells + 1);
   made.first = lattice.middle + corner * lattice.unit;
   made.spacing = glm::dvec3(source.stride * lattice.unit);
   source.sources = {{sources_id}, bytes(source.floats())};
@@ -242,7 +273,7 @@ Technique illumination_network() {
               .sweep = {}},
              {.name = "iterations",
               .kind = Knob::Kind::integer,
-              .standard = "200",
+              .standard = "1000",
               .least = 1,
               .most = 10000,
               .choices = {},
@@ -250,11 +281,11 @@ Technique illumination_network() {
               .sweep = {}},
              {.name = "tolerance",
               .kind = Knob::Kind::number,
-              .standard = "0.0005",
+              .standard = "0.001",
               .least = 0,
               .most = 1,
               .choices = {},
-              .meaning = "rounds end where no particle's source changes by more than that, beside the largest",
+              .meaning = "rounds end where about that part of the light is left out, of orders of scattering that were not made",
               .sweep = {}},
              {.name = "resolution",
               .kind = Knob::Kind::integer,
@@ -262,7 +293,7 @@ Technique illumination_network() {
               .least = 2,
               .most = 256,
               .choices = {},
-              .meaning = "cells of the source function along the longest edge of the box about Gaussians and grid",
+              .meaning = "cells of the source function along the longest edge of what matters of the medium",
               .sweep = {}},
              {.name = "steps",
               .kind = Knob::Kind::integer,
@@ -286,7 +317,7 @@ Technique illumination_network() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),
-             environment_knob(),
+             scattered_environment_knob(),
              environment_shadows_knob(),
              environment_rays_knob()};
   t.multiple_scattering = true;

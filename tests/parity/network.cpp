@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <memory>
+#include <span>
 
 #include "common/plan/geometry.h"
 #include "common/plan/network.h"
 #include "common/plan/voxels.h"
+#include "tests/parity/inputs.h"
 
 namespace airlight {
 
@@ -21,6 +24,14 @@ Scene two_gaussians(double albedo) {
     scene.medium.gaussians.push_back(g);
   }
   return scene;
+}
+
+Environment network_environment() {
+  constexpr Extent extent{8, 4};
+  auto image = std::make_shared<HostImage>(extent, 3);
+  for (std::uint32_t i = 0; i < image->values.size(); ++i) image->values[i] = static_cast<float>(uniform(840, i));
+  for (int c = 0; c < 3; ++c) image->at(5, 1, c) = static_cast<float>(9 - 2 * c);
+  return {image, {0.7, 0.8, 0.9}, 25};
 }
 
 std::vector<LightSource> network_lights() {
@@ -71,7 +82,15 @@ TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSou
   i.sources = floats(6, sources);
   i.residuals = floats(7, 1 + static_cast<std::size_t>(parts.iterations));
 
+  if (scene.environment) {
+    const std::vector<float> sky = network_sky(*scene.environment, parts.lines);
+    const auto sky_bytes = std::as_bytes(std::span(sky));
+    i.sky = floats(9, sky.size());
+    c.buffers.emplace_back(i.sky, std::vector<std::byte>(sky_bytes.begin(), sky_bytes.end()));
+  }
+
   SourceFunction& s = t.source;
+  s.sky = i.sky;
   s.particles = n.particles, s.lines = n.lines, s.links = n.links, s.particle_sources = i.sources, s.phase = parts.phase;
   s.particle_count = n.particle_count, s.line_count = n.line_count, s.window = n.window, s.unit = n.unit;
   s.camera = scene.camera.position - frame.middle;

@@ -20,10 +20,13 @@ struct NetworkParts {
   int iterations = 300;
 };
 
-// All four steps for the scene's medium under these lights; their inputs become buffers 1 to 3 of the case, their outputs 4 to 8.
+// All four steps for the scene's medium under these lights and its environment; their inputs become buffers 1 to 3 and 9 of the
+// case, their outputs 4 to 8.
 TestNetwork test_network(Case&, const Scene&, const std::vector<LightSource>&, const NetworkParts&);
 // Two Gaussians of that albedo, unlike in radius and extinction.
 Scene two_gaussians(double albedo);
+// An uneven sky, turned, with a pixel that is brighter than all others.
+Environment network_environment();
 // A point light in the medium of test_gaussian_scene() and a directional one.
 std::vector<LightSource> network_lights();
 

@@ -4,9 +4,11 @@ namespace airlight {
 
 namespace {
 
-Case iterate(int gaussians, const NetworkParts& parts) {
+Case iterate(int gaussians, const NetworkParts& parts, bool sky = false) {
   Case c;
-  const TestNetwork t = test_network(c, test_gaussian_scene(gaussians), network_lights(), parts);
+  Scene scene = test_gaussian_scene(gaussians);
+  if (sky) scene.environment = network_environment();
+  const TestNetwork t = test_network(c, scene, network_lights(), parts);
   c.steps = {{t.network, ""}, {t.light, ""}, {t.iteration, ""}};
   c.results = {{"sources", t.iteration.sources}};
   return c;
@@ -18,6 +20,15 @@ const NamedCase cases[] = {
     {"network_iteration/forward",
      [](Extent) {
        return iterate(7, {.lines = 8, .phase = {PhaseKind::henyey_greenstein, 0.6}, .iterations = 40});
+     }},
+    {"network_iteration/even",
+     [](Extent) {
+       return iterate(7, {.particles = 333, .lines = 9, .phase = {PhaseKind::rayleigh, 0}, .iterations = 40});
+     }},
+    {"network_iteration/sky", [](Extent) { return iterate(7, {}, true); }},
+    {"network_iteration/sky_forward",
+     [](Extent) {
+       return iterate(7, {.lines = 8, .phase = {PhaseKind::henyey_greenstein, 0.6}, .iterations = 40}, true);
      }},
     {"network_iteration/first_order", [](Extent) { return iterate(5, {.iterations = 1}); }},
     {"network_iteration/one_particle", [](Extent) { return iterate(2, {.particles = 1, .lines = 1, .window = 1}); }},

@@ -52,6 +52,7 @@ inline NetworkTruth network_truth(const Scene& scene, Extent extent, int paths) 
   const auto rendered = [&](int max_bounces, double& seconds) {
     ReferenceSettings settings;
     settings.tolerance = 1e-6, settings.max_bounces = max_bounces, settings.paths = paths;
+    settings.single_by_paths = scene.environment.has_value();  // its quadrature takes long
     const auto start = std::chrono::steady_clock::now();
     const ReferenceFrame frame = reference_frame(scene, extent, settings, false, truth.threads, progress);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -75,18 +76,17 @@ struct NetworkError {
 };
 
 struct NetworkSize {
-  int particles, directions, resolution;
+  int particles = 0, directions = 0, resolution = 0;  // none: the technique's own
 };
 
-// Rounds end where sources change little beside the largest, which a peak of the phase function makes much larger than the rest.
-inline RenderSettings network_settings(const Scene& scene, const NetworkSize& size, Extent extent) {
+inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
   RenderSettings settings;
   settings.technique = "illumination-network";
-  settings.knobs = {{"particles", std::to_string(size.particles)},
-                    {"directions", std::to_string(size.directions)},
-                    {"resolution", std::to_string(size.resolution)},
-                    {"tolerance", scene.medium.phase.kind == PhaseKind::isotropic ? "1e-4" : "1e-6"},
-                    {"iterations", "1000"}};
+  if (size.particles > 0) {
+    settings.knobs = {{"particles", std::to_string(size.particles)},
+                      {"directions", std::to_string(size.directions)},
+                      {"resolution", std::to_string(size.resolution)}};
+  }
   settings.resolution = extent;
   return settings;
 }
@@ -95,10 +95,11 @@ inline RenderSettings network_settings(const Scene& scene, const NetworkSize& si
 inline NetworkError network_error(const Scene& scene, const NetworkTruth& truth, const NetworkSize& size,
                                   const std::string& seen = "source") {
   Renderer renderer({.backend = "cpu"});
-  RenderSettings settings = network_settings(scene, size, truth.extent);
+  RenderSettings settings = network_settings(size, truth.extent);
+  settings.images = {"airlight"};
   settings.knobs.emplace_back("image", seen);
   const Frame frame = renderer.render(scene, settings);
-  const HostImage& image = frame.image("beauty");
+  const HostImage& image = frame.image("airlight");
   double squares = 0, mean = 0;
   const auto pixels = static_cast<double>(truth.values.size());
   for (std::size_t k = 0; k < truth.values.size(); ++k) {

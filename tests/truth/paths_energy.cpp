@@ -68,6 +68,28 @@ TEST(Paths, WhatDoesNotAbsorbSendsOutWhatItTakes) {
   in_and_out({PhaseKind::henyey_greenstein, 0.7});
 }
 
+// Where the same radiance comes from everywhere and nothing is absorbed, it is all that is to be seen.
+void in_a_furnace(const Phase& phase) {
+  Scene scene;
+  scene.camera = {.position = {0.3, 0.2, 5}, .look_at = {0, 0, 0}, .vertical_fov = 10};
+  scene.medium.phase = phase;
+  scene.medium.gaussians = {{.center = {0.2, 0.1, 0}, .radius = 1, .extinction = 1.4},
+                            {.center = {-0.4, -0.2, 0.3}, .radius = 0.8, .extinction = 1.2}};
+  scene.environment = Environment{.image = nullptr, .radiance = {1, 2, 0.5}};
+  const ReferencePixel p = Reference(scene, settings(all_orders, 4000, true, 11)).pixel(centre, one_pixel);
+  for (int c = 0; c < 3; ++c) {
+    const double seen = p.beauty()[c], error = p.standard_error[c], truth = scene.environment->radiance[c];
+    std::printf("g = %g: %.4f of %g, transmittance %.3f, standard error %.4f\n", phase.g, seen, truth, p.transmittance, error);
+    EXPECT_LT(error, 0.02 * truth);
+    EXPECT_FALSE(!(std::fabs(seen - truth) <= 4 * error));
+  }
+}
+
+TEST(Paths, AFurnaceIsAllThatIsSeen) {
+  in_a_furnace({});
+  in_a_furnace({PhaseKind::henyey_greenstein, 0.7});
+}
+
 // Fluence [1/m^2] at a distance r of a lamp of 1 W in endless fog of 1/m that scatters evenly, what comes straight included (Case
 // and Zweifel 1967, section 2.6): the mode of diffusion, whose wave number k is the root of c atanh(k) = k, and a transient,
 // 1 / (4 pi r) (-dk^2/dc exp(-k r) + int_0^1 exp(-r / u) / u^2 / ((1 - c u atanh(u))^2 + (pi c u / 2)^2) du).

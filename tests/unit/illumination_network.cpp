@@ -9,73 +9,12 @@
 #include <set>
 
 #include "common/plan/network.h"
-#include "cpu/backend.h"
-#include "tests/parity/network.h"
 #include "tests/tolerances.h"
+#include "tests/unit/network_ran.h"
 
 namespace airlight {
 
 namespace {
-
-// A case with its steps run, and what came out of them.
-class Ran {
- public:
-  Ran(const Scene& scene, const std::vector<LightSource>& lights, const NetworkParts& parts) : parts_(parts) {
-    t = test_network(case_, scene, lights, parts);
-    case_.steps = {{t.network, ""}, {t.light, ""}, {t.iteration, ""}};
-    upload(backend_, case_);
-    Stats stats;
-    NoProgress progress;
-    backend_.run(case_.steps, stats, progress);
-    links = download(backend_, t.network.links);
-    first = download(backend_, t.light.first);
-    sources = download(backend_, t.iteration.sources);
-    residuals = download(backend_, t.iteration.residuals);
-    const auto floats = [&](std::size_t k) {
-      const std::vector<std::byte>& bytes = case_.buffers[k].second;
-      return std::span(reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float));
-    };
-    particles.assign(floats(0).begin(), floats(0).end());
-    const std::span<const float> line_bits = floats(1);
-    lines.assign(reinterpret_cast<const std::int32_t*>(line_bits.data()),
-                 reinterpret_cast<const std::int32_t*>(line_bits.data()) + line_bits.size());
-    shape = t.network.shape();
-  }
-
-  double link(std::size_t line, int plane, std::size_t record) const {
-    return static_cast<double>(links[shape.record(line, plane) + record]);
-  }
-  double particle(std::size_t plane, std::size_t v) const { return static_cast<double>(particles[plane * shape.particles + v]); }
-  double area(std::size_t line) const {
-    const std::int32_t* l = lines.data() + line * line_fields;
-    return static_cast<double>(l[line_pixel]) * l[line_pixel + 1];
-  }
-  glm::dvec3 axis(std::size_t line, int field) const {
-    const std::int32_t* l = lines.data() + line * line_fields + field;
-    return glm::dvec3(l[0], l[1], l[2]) / static_cast<double>(lattice_length);
-  }
-  // body(pixel, its particles in order, its first record)
-  template <class Body>
-  void each_list(std::size_t line, Body&& body) const {
-    const float* begin = links.data() + line * (shape.slots + 1);
-    for (std::size_t c = 0; c < shape.slots; ++c) {
-      const auto a = static_cast<std::size_t>(begin[c]), b = static_cast<std::size_t>(begin[c + 1]);
-      std::vector<std::size_t> list;
-      for (std::size_t k = a; k < b; ++k) list.push_back(static_cast<std::size_t>(link(line, link_particle, k + c)));
-      if (!list.empty()) body(c, list, a + c);
-    }
-  }
-
-  TestNetwork t;
-  NetworkShape shape;
-  std::vector<float> links, first, sources, residuals, particles;
-  std::vector<std::int32_t> lines;
-
- private:
-  NetworkParts parts_;
-  Case case_;
-  CpuBackend backend_{CpuOptions{.threads = 2}};
-};
 
 // n equations, by elimination.
 std::vector<double> solve(std::vector<std::vector<double>> m, std::vector<double> right) {
@@ -101,7 +40,7 @@ std::vector<double> solve(std::vector<std::vector<double>> m, std::vector<double
 // What one way of a line's list does, as a matrix: [taking particle][sending particle], straight from the links' definition, with
 // transmittances and their integrals in double instead of the stored shares.
 template <class Add>
-void list_matrix(const Ran& ran, std::size_t line, const std::vector<std::size_t>& list, std::size_t record, bool backward,
+void list_matrix(const RanNetwork& ran, std::size_t line, const std::vector<std::size_t>& list, std::size_t record, bool backward,
                  Add&& add) {
   const std::size_t n = list.size();
   struct Link {
@@ -135,8 +74,8 @@ double relative_largest(const std::vector<double>& found, const std::vector<doub
 }
 
 TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
-  const Ran ran(two_gaussians(0.9), network_lights(),
-                {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400});
+  const RanNetwork ran(two_gaussians(0.9), network_lights(),
+                       {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400});
   const std::size_t n = ran.shape.particles;
   std::vector<std::vector<double>> taken(n, std::vector<double>(n, 0.0));
   std::vector<double> weight(n, 0.0);
@@ -169,14 +108,14 @@ TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
 
 // The same where sources depend on the direction: one unknown a particle and direction.
 TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
-  const Ran ran(two_gaussians(0.8), network_lights(),
-                {.particles = 20,
-                 .lines = 5,
-                 .window = 3,
-                 .phase = {PhaseKind::henyey_greenstein, 0.5},
-                 .extinction = 0,
-                 .tolerance = 1e-8F,
-                 .iterations = 400});
+  const RanNetwork ran(two_gaussians(0.8), network_lights(),
+                       {.particles = 20,
+                        .lines = 5,
+                        .window = 3,
+                        .phase = {PhaseKind::henyey_greenstein, 0.5},
+                        .extinction = 0,
+                        .tolerance = 1e-8F,
+                        .iterations = 400});
   const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
   const auto phase = [&](std::size_t d, std::size_t i) {
     const auto way = [&](std::size_t k) { return glm::normalize(ran.axis(k / 2, line_direction)) * (k % 2 == 0 ? 1.0 : -1.0); };
@@ -224,8 +163,9 @@ TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
 
 // At albedo 1, what leaves all lines is what the first sources put into them.
 void out_is_in(const Phase& phase) {
-  const Ran ran(two_gaussians(1), network_lights(),
-                {.particles = 200, .lines = 10, .window = 5, .phase = phase, .extinction = 0, .tolerance = 0, .iterations = 400});
+  const RanNetwork ran(
+      two_gaussians(1), network_lights(),
+      {.particles = 200, .lines = 10, .window = 5, .phase = phase, .extinction = 0, .tolerance = 0, .iterations = 400});
   const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
   const bool isotropic = phase.kind == PhaseKind::isotropic;
   const auto value = [&](std::size_t d, std::size_t v) { return 4 * ((isotropic ? 0 : d * n) + v); };
@@ -254,7 +194,7 @@ TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::hen
 
 // Each particle once a line, in order, in the pixel where it is; the links of a list add up to the whole line through its pixel.
 TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
-  const Ran ran(two_gaussians(1), {}, {.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F});
+  const RanNetwork ran(two_gaussians(1), {}, {.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F});
   double worst = 0, worst_other = 0;
   for (std::size_t line = 0; line < ran.shape.lines; ++line) {
     std::set<std::size_t> seen;

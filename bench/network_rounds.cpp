@@ -1,0 +1,171 @@
+// airlight-network-rounds: what illumination networks cost by particles and directions, and how many rounds their light takes to
+// settle, beside the iteration as it is published, which carries light over one link a round.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cpu/backend.h"
+#include "tests/parity/network.h"
+#include "tests/truth/network_error.h"
+
+namespace airlight {
+
+namespace {
+
+int window_of(int particles) { return static_cast<int>(std::lround(std::cbrt(particles))); }
+
+struct Ran {
+  Case all;
+  TestNetwork network;
+  StepStats steps[4];      // network, light, rounds, sources
+  double milliseconds[4];  // of them on one core: what all threads took together
+};
+
+// Each step by itself: those before it are kept.
+Ran run(CpuBackend& backend, const Scene& scene, const NetworkParts& parts) {
+  Ran ran;
+  ran.network = test_network(ran.all, scene, scene.lights, parts);
+  ran.all.steps = {{ran.network.network, ""}, {ran.network.light, ""}, {ran.network.iteration, ""}, {ran.network.source, ""}};
+  upload(backend, ran.all);
+  NoProgress progress;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Stats stats;
+    const std::clock_t start = std::clock();
+    backend.run(std::span(ran.all.steps).first(k + 1), stats, progress);
+    ran.milliseconds[k] = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    ran.steps[k] = stats.steps[k];
+  }
+  return ran;
+}
+
+NetworkParts parts_of(const Scene& scene, int particles, int directions, float tolerance, int iterations) {
+  return {.particles = particles,
+          .lines = directions / 2,
+          .window = window_of(particles),
+          .phase = scene.medium.phase,
+          .extinction = 0,
+          .tolerance = tolerance,
+          .iterations = iterations};
+}
+
+// The least of a few runs; of a round what more of them take.
+void costs() {
+  fmt::print(
+      "Milliseconds of one core, of what {} threads took together, the least of 7 runs; source function of 13 nodes\n"
+      "along the longest edge\n",
+      std::thread::hardware_concurrency());
+  fmt::print("{:>9} {:>10} {:>4} {:>8} {:>8} {:>8} {:>9} {:>8}\n", "particles", "directions", "g", "network", "light", "round",
+             "set up", "sources");
+  for (const double g : {0.0, 0.6}) {
+    const Scene scene = network_cloud(10, 0.9, g);
+    for (const auto& [particles, directions] :
+         {std::pair{512, 128}, {1024, 128}, {4096, 64}, {4096, 128}, {4096, 256}, {16384, 256}}) {
+      if (g > 0 && particles > 4096) continue;
+      const int few = 2, many = g > 0 ? 12 : 42;
+      double least[4] = {1e9, 1e9, 1e9, 1e9}, of_many = 1e9;
+      for (int i = 0; i < 7; ++i) {
+        CpuBackend first(CpuOptions{}), second(CpuOptions{});
+        const Ran ran = run(first, scene, parts_of(scene, particles, directions, 0, few));
+        for (std::size_t k = 0; k < 4; ++k) least[k] = std::min(least[k], ran.milliseconds[k]);
+        of_many = std::min(of_many, run(second, scene, parts_of(scene, particles, directions, 0, many)).milliseconds[2]);
+      }
+      const double round = (of_many - least[2]) / (many - few);
+      fmt::print("{:9} {:10} {:4} {:8.2f} {:8.2f} {:8.3f} {:9.2f} {:8.2f}\n", particles, directions, g, least[0], least[1], round,
+                 least[2] - few * round, least[3]);
+      std::fflush(stdout);
+    }
+  }
+}
+
+// The published iteration on the same links: I[p,i] = (1 - alpha) I[v,i] + alpha (first[v] + a_v mean of I[v,d] over d), v what p
+// sees; isotropic, of the first channel. Gives the mean of all I after each round.
+std::vector<double> published(CpuBackend& backend, const Ran& ran, int rounds) {
+  const NetworkShape shape = ran.network.network.shape();
+  const std::vector<float> links = download(backend, ran.network.network.links),
+                           first = download(backend, ran.network.light.first);
+  const std::size_t n = shape.particles, directions = 2 * shape.lines;
+  std::vector<std::int32_t> seen(n * directions, -1);
+  std::vector<float> alpha(n * directions, 0.0F), now(n * directions, 0.0F), next(n * directions, 0.0F), mean(n, 0.0F);
+  for (std::size_t l = 0; l < shape.lines; ++l) {
+    const float* begin = links.data() + l * (shape.slots + 1);
+    for (std::size_t c = 0; c < shape.slots; ++c) {
+      const auto at = [&](std::size_t k) { return static_cast<std::size_t>(links[shape.record(l, link_particle) + k + c]); };
+      for (auto k = static_cast<std::size_t>(begin[c]); k + 1 < static_cast<std::size_t>(begin[c + 1]); ++k) {
+        const std::size_t a = at(k), b = at(k + 1);
+        const float lost = links[shape.record(l, link_lost) + k + 1 + c];
+        seen[2 * l * n + b] = static_cast<std::int32_t>(a), alpha[2 * l * n + b] = lost;  // light goes from a to b
+        seen[(2 * l + 1) * n + a] = static_cast<std::int32_t>(b), alpha[(2 * l + 1) * n + a] = lost;
+      }
+    }
+  }
+  const auto albedo = static_cast<float>(ran.network.network.gaussians[0].albedo.x);
+  std::vector<double> means;
+  for (int round = 0; round < rounds; ++round) {
+    std::fill(mean.begin(), mean.end(), 0.0F);
+    for (std::size_t d = 0; d < directions; ++d) {
+      for (std::size_t v = 0; v < n; ++v) mean[v] += now[d * n + v] / static_cast<float>(directions);
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < n * directions; ++k) {
+      if (seen[k] < 0) continue;
+      const auto v = static_cast<std::size_t>(seen[k]);
+      next[k] = (1 - alpha[k]) * now[k - k % n + v] + alpha[k] * (first[4 * v] + albedo * mean[v]);
+      sum += static_cast<double>(next[k]);
+    }
+    now.swap(next);
+    means.push_back(sum);
+  }
+  return means;
+}
+
+// Rounds until no more than a share of the light is missing of what there is in the end; 0 where that is never.
+std::string rounds_to(const std::vector<double>& sums, double share) {
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (sums[k] >= (1 - share) * sums.back()) return std::to_string(k + 1);
+  }
+  return "";
+}
+
+void convergence(CpuBackend& backend) {
+  fmt::print(
+      "\nRounds until 10 %, 1 % and 0.1 % of the light are missing, 1024 particles and 128 directions, isotropic: a whole order "
+      "of\n"
+      "scattering a round, and as published; milliseconds of one core for ours to 0.1 %\n");
+  for (const double depth : {4.0, 10.0, 40.0}) {
+    for (const double albedo : {0.9, 0.99, 1.0}) {
+      const Scene scene = network_cloud(depth, albedo, 0);
+      const Ran ran = run(backend, scene, parts_of(scene, 1024, 128, 0, 6000));
+      std::vector<double> ours;
+      double sum = 1;
+      for (const float change : ran.steps[2].residuals) ours.push_back(sum /= 1 - static_cast<double>(change));
+      const std::vector<double> theirs = published(backend, ran, 8000);
+      fmt::print("depth {:3}, albedo {:4}: {:>4} {:>4} {:>5}, published {:>4} {:>4} {:>5}", depth, albedo, rounds_to(ours, 0.1),
+                 rounds_to(ours, 0.01), rounds_to(ours, 0.001), rounds_to(theirs, 0.1), rounds_to(theirs, 0.01),
+                 rounds_to(theirs, 0.001));
+      const double a_round = 1e-3 * ran.milliseconds[2] / static_cast<double>(ran.steps[2].residuals.size());
+      fmt::print("; {:.1f} ms\n", 1e3 * a_round * std::stod("0" + rounds_to(ours, 0.001)));
+    }
+  }
+}
+
+}  // namespace
+
+}  // namespace airlight
+
+int main(int argc, char**) {
+  if (argc > 1) {
+    fmt::print(stderr, "airlight-network-rounds: expected no arguments\n");
+    return 2;
+  }
+  airlight::costs();
+  airlight::CpuBackend backend(airlight::CpuOptions{});
+  airlight::convergence(backend);
+  return 0;
+}
