@@ -115,6 +115,7 @@ void run(const Subsample&, StepRunner&, const Progress&);
 void run(const DepthAwareUpsample&, StepRunner&, const Progress&);
 void run(const FillAirlight&, StepRunner&, const Progress&);
 void run(const EnvironmentAirlight&, StepRunner&, const Progress&);
+void run(const EnvironmentIndirect&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

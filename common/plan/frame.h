@@ -17,12 +17,14 @@
 
 namespace airlight {
 
-// `indirect`: unbounded | off.
+// `indirect`: unbounded | off | mean_density | psf, of FramePlan::shade().
 Knob indirect_knob();
 // `table_nodes`, of FramePlan::add_airlight_tables().
 Knob table_nodes_knob();
 // `environment_airlight`: on | published | off, of what the medium makes of an environment.
 Knob environment_knob();
+// `environment_indirect`: off | on | published, of what of an environment the medium scatters onto surfaces.
+Knob environment_indirect_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
@@ -79,6 +81,10 @@ class FramePlan {
   Image optional_image(std::string_view name, Format);
   Image per_light_image();
   Image add_indirect();
+  glm::vec3 rest_albedo() const;
+  bool rest_scatters() const;
+  std::optional<std::string_view> lacks_environment_indirect() const;
+  Image add_environment_indirect(Image scattered);
   Image add_environment();
   void expect_environment_airlight();
   void add_environment_airlight();
@@ -87,7 +93,8 @@ class FramePlan {
 
   std::uint32_t next_id_;
   Image surface_, surface_direct_, surface_ambient_, beauty_;
-  Image airlight_;  // with what the medium scatters of an environment; absent where that is nothing
+  Image depth_toward_light_;  // as LightMarch makes it, where what it stands for scatters onto surfaces; else absent
+  Image airlight_;            // with what the medium scatters of an environment; absent where that is nothing
 };
 
 }  // namespace airlight

@@ -59,14 +59,6 @@ void FramePlan::add_environment_airlight() {
   plan.uploads.push_back(table_upload(tables, key.value(), [environment = *scene.environment, published, phase = medium.phase] {
     return environment_airlight_table(environment, published ? npsf_coefficients() : phase_coefficients(phase));
   }));
-  // Each counts as much as it holds.
-  glm::dvec3 albedo(0);
-  double all = 0;
-  for (const Gaussian& g : medium.gaussians) {
-    const double mass = g.extinction * g.radius * g.radius * g.radius;
-    albedo += mass * g.albedo, all += mass;
-  }
-  if (medium.grid) albedo = medium.grid->albedo, all = 1;  // most of such a medium
   plan.steps.push_back(
       {EnvironmentAirlight{.distance = distance,
                            .optical_depth = optical_depth,
@@ -76,7 +68,7 @@ void FramePlan::add_environment_airlight() {
                            .extinction = extinction,
                            .sky_distance = sky_distance,
                            .albedo = medium.albedo,
-                           .gaussian_albedo = all > 0 ? albedo / all : medium.albedo,
+                           .gaussian_albedo = rest_albedo(),
                            .scattering = published ? EnvironmentScattering::published : EnvironmentScattering::depths,
                            .airlight = airlight_},
        "the environment's light, scattered once along the view ray"});

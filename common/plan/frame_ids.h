@@ -13,7 +13,8 @@ enum : std::uint32_t {
   airlight_tables_id = 6,
   environment_id = 7,
   environment_airlight_id = 8,
-  first_image_id = 9
+  environment_indirect_id = 9,
+  first_image_id = 10
 };
 
 }  // namespace airlight

@@ -226,7 +226,8 @@ Technique gaussian_airlight() {
       shadows_knob(),
       airlight_resolution_knob(),
       indirect_knob(),
-      environment_knob()};
+      environment_knob(),
+      environment_indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

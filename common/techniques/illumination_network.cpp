@@ -259,7 +259,8 @@ Technique illumination_network() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),
-             environment_knob()};
+             environment_knob(),
+             environment_indirect_knob()};
   t.multiple_scattering = true;
   t.refuses = refuses;
   t.plan = plan;

@@ -121,7 +121,8 @@ Technique marching() {
              shadows_knob(),
              airlight_resolution_knob(),
              indirect_knob(),
-             environment_knob()};
+             environment_knob(),
+             environment_indirect_knob()};
   t.refuses = [](const Scene& scene) {
     const auto why = refuses_noise(scene);
     return why ? why : refuses_environment(scene);

@@ -114,7 +114,8 @@ Technique shadow_planes() {
        .sweep = {},
        .baselines = {"published"}},
       indirect_knob(),
-      environment_knob()};
+      environment_knob(),
+      environment_indirect_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate;

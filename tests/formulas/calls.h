@@ -63,6 +63,7 @@ FORMULA void call_environment(int formula, table t, int kind, INPUTS, RESULTS) {
     environment_scattered(a[0], a[1], r[0], r[1]);
     r[2] = environment_scattered_published(a[0]);
   }
+  if (formula == 82) environment_scattered_to_surface(a[0], r[0], r[1]);
   if (formula == 79) environment_reflection(t, a[0], a[1], a[2], r[0], r[1], r[2]);
 }
 
@@ -142,6 +143,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
     r[0] = surface_airlight_point(t, a[0], a[1]);
     r[1] = surface_airlight_directional(t, a[1]);
   }
+  if (formula == 81) r[0] = surface_airlight_psf(t, a[0], a[1]);
   if (formula == 60) {
     r[0] = upsampled(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
     r[1] = upsampling_error(abs(a[4]), abs(a[5]), abs(a[6]), abs(a[7]), a[8], a[9]);

@@ -6,29 +6,14 @@ namespace airlight {
 
 std::vector<NamedCase> all_cases() {
   std::vector<NamedCase> all;
-  for (const auto list : {surface_visibility_cases(),
-                          shadow_planes_cases(),
-                          view_transmittance_cases(),
-                          surface_airlight_cases(),
-                          environment_light_cases(),
-                          surface_shading_cases(),
-                          homogeneous_airlight_cases(),
-                          density_injection_cases(),
-                          optical_depth_propagation_cases(),
-                          visibility_network_cases(),
-                          particle_light_cases(),
-                          network_iteration_cases(),
-                          source_function_cases(),
-                          ray_march_cases(),
-                          gaussian_airlight_cases(),
-                          projected_gaussians_cases(),
-                          light_march_cases(),
-                          subsample_cases(),
-                          depth_aware_upsample_cases(),
-                          fill_airlight_cases(),
-                          environment_airlight_cases(),
-                          compose_cases(),
-                          frame_cases()}) {
+  for (const auto list : {surface_visibility_cases(),   shadow_planes_cases(),     view_transmittance_cases(),
+                          surface_airlight_cases(),     environment_light_cases(), surface_shading_cases(),
+                          homogeneous_airlight_cases(), density_injection_cases(), optical_depth_propagation_cases(),
+                          visibility_network_cases(),   particle_light_cases(),    network_iteration_cases(),
+                          source_function_cases(),      ray_march_cases(),         gaussian_airlight_cases(),
+                          projected_gaussians_cases(),  light_march_cases(),       subsample_cases(),
+                          depth_aware_upsample_cases(), fill_airlight_cases(),     environment_airlight_cases(),
+                          environment_indirect_cases(), compose_cases(),           frame_cases()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;

@@ -88,6 +88,8 @@ enum class Formula : int {
   environment_share = 78,       // cosine; the table: of a lobe
   environment_reflection = 79,  // direction; the table: of a lobe -> red, green, blue
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
+  surface_airlight_psf = 81,    // lambda, cosine; the table is one of surface_psf_tables()
+  environment_scattered_to_surface = 82,  // mean depth of the rest -> of the homogeneous part, of the rest
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 
