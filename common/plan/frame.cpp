@@ -201,6 +201,10 @@ Image FramePlan::add_indirect() {
     plan.skips.push_back({"indirect single scattering", any ? "indirect = off" : "no light, no surface or nothing scatters"});
     return {};
   }
+  if ((psf || choice == "mean_density") && !depth_toward_light_) {
+    const bool uneven = !gaussians_of(scene).empty() || medium.grid;
+    plan.skips.push_back({"light that Gaussians and grids scatter onto surfaces", uneven ? "they absorb all" : "there is none"});
+  }
   if (psf && medium.phase.kind != PhaseKind::isotropic)
     throw InputError("setting indirect: psf is of the isotropic phase function, the scene has another");
   const std::vector<Material> materials = materials_of(scene);
