@@ -38,7 +38,7 @@ void add_lobe(std::vector<float>& tables, double exponent, double scale) {
     const double factor = scale * npsf[l] * f64::sh_delta(band) * f64::sh_lobe_factor(band, exponent);
     for (std::size_t i = 0; i < order; ++i) sum[i] += factor * bands[l][i];
   }
-  for (std::size_t i = order; i-- > 0;) tables.push_back(static_cast<float>(sum[i]));
+  for (const double c : sum) tables.push_back(static_cast<float>(c));
 }
 
 }  // namespace

@@ -143,7 +143,6 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
     r[0] = surface_airlight_point(t, a[0], a[1]);
     r[1] = surface_airlight_directional(t, a[1]);
   }
-  if (formula == 81) r[0] = surface_airlight_psf(t, a[0], a[1]);
   if (formula == 60) {
     r[0] = upsampled(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]);
     r[1] = upsampling_error(abs(a[4]), abs(a[5]), abs(a[6]), abs(a[7]), a[8], a[9]);
@@ -157,6 +156,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
   if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
   if ((formula >= 70) && (formula < 76)) call_harmonics(formula, t, kind, a, r);
-  if (formula >= 76) call_environment(formula, t, kind, a, r);
+  if ((formula >= 76) && (formula != 81)) call_environment(formula, t, kind, a, r);
+  if (formula == 81) r[0] = surface_airlight_psf(t, a[0], a[1]);
   if (formula == 25) perpendicular(a[0], a[1], a[2], a[3], a[4], a[5], a[6], r[0], r[1]);
 }
