@@ -63,7 +63,8 @@ struct ReferenceParts {
 // distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
 // illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). An
 // environment's light is hidden by nothing, on its way to surfaces and into the medium, which scatters it once toward the camera
-// whatever max_bounces, and toward surfaces where what is indirect is exact. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// whatever max_bounces, and toward surfaces where what is indirect is exact. Emission of a Gaussian is its `emission` times
+// exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   // Throws InputError where a directional light and homogeneous fog of albedo 1 have no sum of so many orders.

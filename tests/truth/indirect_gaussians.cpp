@@ -92,7 +92,8 @@ glm::dvec3 by_definition(const Scene& scene, const LightSource& source, const Re
       double sum = 0;
       for (unsigned l = 0; l < 6; ++l) {
         double moment = 0;  // of the lobe
-        for (int i = 0; i < 2000; ++i) moment += (n + 1) * std::pow((i + 0.5) / 2000, n) * std::legendre(l, (i + 0.5) / 2000) / 2000;
+        for (int i = 0; i < 2000; ++i)
+          moment += (n + 1) * std::pow((i + 0.5) / 2000, n) * std::legendre(l, (i + 0.5) / 2000) / 2000;
         sum += npsf[l] * std::sqrt((2 * l + 1) / (4 * pi)) * moment * std::legendre(l, cosine);
       }
       return fall_off * lambda * std::exp(-lambda) * std::max(sum, 0.0) * mixed;
