@@ -12,20 +12,10 @@
 #include "cpu/pixel_rays.h"
 //
 #include "cpu/lane_surface.h"
+#include "cpu/mean_depth.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
-
-// Over all directions from a place.
-static HWY_INLINE Real mean_depth(const std::vector<GaussianDensity>& gaussians, const Real3& place) {
-  Real depth = 0.0;
-  for (const GaussianDensity& g : gaussians) {
-    const float in_radii = 1 / g.radius;
-    const Real3 e{(g.center.x - place.x) * in_radii, (g.center.y - place.y) * in_radii, (g.center.z - place.z) * in_radii};
-    depth = fma(average_gaussian_depth(dot(e, e)), g.extinction * g.radius, depth);
-  }
-  return depth;
-}
 
 static void environment_light(const EnvironmentLight& a, const TileView& view, std::span<const float> shininess) {
   const float* through = view.plane(a.transmittance);

@@ -28,6 +28,7 @@ void run_tile(const DepthAwareUpsample&, const TileView&, Simd);
 void run_tile(const FillAirlight&, const TileView&, Simd);
 void run_tile(const EnvironmentAirlight&, const TileView&, Simd);
 void run_tile(const HiddenEnvironment&, const TileView&, Simd);
+void run_tile(const EnvironmentIndirect&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 // Those that make buffers.
 void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);

@@ -20,11 +20,13 @@ static void light_march(const LightMarch& a, const TileView& view) {
     const Real depth = load(distance + i);
     const Mask hit = depth < 1e30;
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
-      Real through = 1.0;
+      Real through = 1.0, toward = 0.0;
       if (any_lane(hit)) {
         const Real3 p = along({0.0, 0.0, 0.0}, pixel_rays(a.view, view.tile, i), select(hit, depth, 0.0));
-        through = select(hit, transmittance(depth_to(medium, k, a.lights[k], p, hit)), 1.0);
+        toward = select(hit, depth_to(medium, k, a.lights[k], p, hit), 0.0);
+        through = transmittance(toward);
       }
+      if (a.depth_toward_light) store(toward, view.plane(a.depth_toward_light, 0, static_cast<int>(k)) + i);
       if (a.lit) through *= load(view.plane(a.lit, 0, static_cast<int>(k)) + i);
       store(through, view.plane(a.light_transmittance, 0, static_cast<int>(k)) + i);
     }

@@ -1,19 +1,13 @@
 #include <algorithm>
 #include <glm/vec4.hpp>
 
-#include "common/error.h"
 #include "common/plan/surface_airlight_tables.h"
-#include "gpu/medium.h"
+#include "gpu/mean_depth.h"
 #include "gpu/step_runner.h"
 
 namespace airlight {
 
 void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
-  // The sums over harmonics go round less than a thousand times.
-  if (a.gaussians.size() > static_cast<std::size_t>(LoopBudget::most) - 1000) {
-    throw MachineError("OpenGL: the light of an environment through " + std::to_string(a.gaussians.size()) +
-                       " Gaussians is more loops than a shader may run");
-  }
   Program& program = r.compute("gpu/environment_light.glsl",
                                {a.hidden_diffuse ? "WITH_HIDDEN_DIFFUSE" : "", a.hidden_specular ? "WITH_HIDDEN_SPECULAR" : "",
                                 a.brdf.empty() ? "" : "WITH_BRDFS"});
@@ -44,14 +38,7 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
     }
     r.storage(2, std::as_bytes(std::span(lobes)));
   }
-  // Two vectors a Gaussian: centre and 1 / radius; extinction times radius.
-  std::vector<glm::vec4> gaussians;
-  for (const GaussianDensity& g : a.gaussians) {
-    gaussians.emplace_back(g.center, 1 / g.radius);
-    gaussians.emplace_back(g.extinction * g.radius, 0, 0, 0);
-  }
-  if (gaussians.empty()) gaussians.emplace_back(0);
-  r.storage(1, std::as_bytes(std::span(gaussians)));
+  bind_mean_depth(r, a.gaussians);
   r.view(a.view);
   const glm::ivec4 knobs(static_cast<int>(a.gaussians.size()), static_cast<int>(environment_image_at(shininess.size(), brdfs)),
                          static_cast<int>(environment_share_floats),

@@ -1,5 +1,6 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
+#include "gpu/mean_depth.glsl"
 
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray normal_image;
@@ -18,22 +19,10 @@ layout(std140, binding = 2) uniform Knobs { ivec4 counts; };
 
 // Two vectors a material: diffuse; specular and where its lobe's table begins.
 layout(std430, binding = 0) readonly buffer MaterialBlock { vec4 materials[]; };
-// Two vectors a Gaussian: centre and 1 / radius; extinction times radius.
-layout(std430, binding = 1) readonly buffer GaussianBlock { vec4 gaussians[]; };
 #ifdef WITH_BRDFS
 // Where the lobes of each material's reflectance begin, -1: it has none.
 layout(std430, binding = 2) readonly buffer BrdfBlock { int lobes[]; };
 #endif
-
-// Over all directions from a place.
-float mean_depth(vec3 place) {
-  float depth = 0.0;
-  for (int g = 0; g < counts.x; ++g) {
-    vec3 e = (gaussians[2 * g].xyz - place) * gaussians[2 * g].w;
-    depth = fma(average_gaussian_depth(dot3(e, e)), gaussians[2 * g + 1].x, depth);
-  }
-  return depth;
-}
 
 vec3 lobe(int t, vec3 about) {
   vec3 radiance;
@@ -70,7 +59,7 @@ void main() {
     int tabulated = lobes[int(index)];
     if (tabulated >= 0) brdf_environment(counts.w, tabulated, n.x, n.y, n.z, -d.x, -d.y, -d.z, light.x, light.y, light.z);
 #endif
-    light *= transmittance(mean_depth(d * texelFetch(distance_image, at, 0).x));
+    light *= transmittance(mean_depth(counts.x, d * texelFetch(distance_image, at, 0).x));
   } else {
     float turns;
     float polar;

@@ -117,6 +117,7 @@ void run(const DepthAwareUpsample&, StepRunner&, const Progress&);
 void run(const FillAirlight&, StepRunner&, const Progress&);
 void run(const EnvironmentAirlight&, StepRunner&, const Progress&);
 void run(const HiddenEnvironment&, StepRunner&, const Progress&);
+void run(const EnvironmentIndirect&, StepRunner&, const Progress&);
 void run(const Compose&, StepRunner&, const Progress&);
 
 }  // namespace airlight

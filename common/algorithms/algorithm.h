@@ -9,6 +9,7 @@
 #include "common/algorithms/density_injection.h"
 #include "common/algorithms/depth_aware_upsample.h"
 #include "common/algorithms/environment_airlight.h"
+#include "common/algorithms/environment_indirect.h"
 #include "common/algorithms/environment_light.h"
 #include "common/algorithms/fill_airlight.h"
 #include "common/algorithms/gaussian_airlight.h"
@@ -32,11 +33,11 @@
 
 namespace airlight {
 
-using Algorithm =
-    std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight, SurfaceShading,
-                 HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork, ParticleLight,
-                 NetworkIteration, SourceFunction, RayMarch, ParticleSplats, GaussianAirlight, ProjectedGaussians, LightMarch,
-                 Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight, HiddenEnvironment, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight,
+                               SurfaceShading, HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork,
+                               ParticleLight, NetworkIteration, SourceFunction, RayMarch, ParticleSplats, GaussianAirlight,
+                               ProjectedGaussians, LightMarch, Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight,
+                               EnvironmentIndirect, HiddenEnvironment, Compose>;
 
 struct Step {
   Algorithm what;

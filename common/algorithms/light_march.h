@@ -26,6 +26,7 @@ struct LightMarch {
   Erf erf = Erf::accurate;  // of LightDepth::analytic
 
   Image light_transmittance;  // r32f, a layer a light, 0..1
+  Image depth_toward_light;   // r32f, a layer a light: the depth that this comes of, 0 where nothing is hit; optional
 
   static constexpr std::string_view name = "light_march";
   static constexpr Domain domain = Domain::pixel;
@@ -44,6 +45,7 @@ struct LightMarch {
     v(knob("light_depth"), s.light_depth);
     v(knob("erf"), s.erf);
     v(out("light_transmittance"), s.light_transmittance);
+    v(out("depth_toward_light"), s.depth_toward_light);
   }
 };
 

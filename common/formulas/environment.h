@@ -83,3 +83,12 @@ FORMULA void environment_scattered(real homogeneous, real rest, OUT(real) of_hom
 FORMULA real environment_scattered_published(real tau) {
   return min(tau, 1e4) * transmittance(tau);
 }
+
+// How much of an environment's light the medium scatters once toward a surface, of the homogeneous part and of the rest, by the mean depth of the
+// rest over all directions from there; per unit of albedo and of what phase function and lobe gather. The rest attenuates the light on its way to
+// each place about as much as the way on from there to the surface: int exp(-2 t) over the depth. The homogeneous part lies around all of that and
+// has no end; what it scatters arrives as the environment itself does.
+FORMULA void environment_scattered_to_surface(real rest, OUT(real) of_homogeneous, OUT(real) of_rest) {
+  of_homogeneous = transmittance(rest);
+  of_rest = opacity(rest * 2.0) * 0.5;
+}

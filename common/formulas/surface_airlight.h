@@ -46,3 +46,13 @@ FORMULA real surface_airlight_directional(table t, real s) {
   real w = element(t, 1);
   return max(value, 0.0) * ((1.0 + w) / (s + w));
 }
+
+// The same by the point spread function of Zhou et al. 2007, eq. 18 and 25: the light convolved with NPSF and reflected by the lobe, times
+// lambda exp(-lambda), where the medium between the light and the surface is as dense as in the mean. Both are functions of the angle from the
+// light alone, so that the harmonics are a polynomial in the cosine between the light and the normal or the mirror direction; not below 0, where a
+// cut-off expansion may swing. The table: six coefficients, the constant first.
+FORMULA real surface_airlight_psf(table t, real lambda, real cosine) {
+  real value = element(t, 5);
+  for (int i = 4; i >= 0; --i) value = fma(value, cosine, element(t, i));
+  return max(value, 0.0) * (min(lambda, 1e4) * transmittance(lambda));
+}

@@ -163,6 +163,20 @@ std::vector<float> environment_airlight_table(const Environment& e, const Zonal&
   return table;
 }
 
+std::vector<float> environment_indirect_table(const Environment& e, std::span<const float> shininess, const Zonal& zonal) {
+  EnvironmentHarmonics scattered = environment_harmonics(e);
+  for (auto& channel : scattered) {
+    for (int l = 0; l < order; ++l) {
+      const double factor = f64::sh_zonal_factor(l) * zonal[static_cast<std::size_t>(l)];
+      for (int i = l * l; i < (l + 1) * (l + 1); ++i) channel[static_cast<std::size_t>(i)] *= factor;
+    }
+  }
+  std::vector<float> table;
+  add_lobe(table, scattered, 1);
+  for (const float n : shininess) add_lobe(table, scattered, static_cast<double>(n));
+  return table;
+}
+
 std::uint64_t environment_key(const Environment& e, std::span<const float> shininess) {
   Hash key;
   key.add(std::string_view("environment"));

@@ -29,6 +29,9 @@ std::vector<float> environment_table(const Environment&, std::span<const float> 
 // The table of EnvironmentAirlight: the environment convolved with a function of the angle between ways before and after.
 std::vector<float> environment_airlight_table(const Environment&, const Zonal&);
 
+// The table of EnvironmentIndirect: the same convolved with each lobe, with the lobes' shares above a horizon.
+std::vector<float> environment_indirect_table(const Environment&, std::span<const float> shininess, const Zonal&);
+
 // Of everything that the table depends on.
 std::uint64_t environment_key(const Environment&, std::span<const float> shininess);
 

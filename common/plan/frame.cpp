@@ -4,12 +4,14 @@
 #include <string>
 #include <utility>
 
+#include "common/error.h"
 #include "common/plan/airlight_tables.h"
 #include "common/plan/frame_ids.h"
 #include "common/plan/hash.h"
 #include "common/plan/image_names.h"
 #include "common/plan/shadow_volumes.h"
 #include "common/plan/surface_airlight_tables.h"
+#include "common/plan/surface_psf.h"
 #include "common/plan/upload.h"
 
 namespace airlight {
@@ -20,8 +22,11 @@ Knob indirect_knob() {
           .standard = "unbounded",
           .least = 0,
           .most = 0,
-          .choices = {"unbounded", "off"},
-          .meaning = "light scattered once on its way to surfaces, as of an unbounded homogeneous medium without shadows",
+          .choices = {"unbounded", "off", "mean_density", "psf"},
+          .meaning =
+              "light of lamps and suns scattered once on its way to surfaces, as of an unbounded medium without shadows: of "
+              "the homogeneous part; of the whole medium as if it were as dense everywhere as between light and surface, by "
+              "the same tables or by the point spread function of Zhou et al. for the isotropic phase function",
           .sweep = {}};
 }
 
@@ -191,32 +196,46 @@ Image FramePlan::add_lit(Buffer volumes, std::uint32_t id) {
 // Absent where the scene has nothing to scatter or to receive, or the knob does not ask for it.
 Image FramePlan::add_indirect() {
   const Medium& medium = scene.medium;
-  const bool scatters = medium.extinction > 0 && medium.albedo != glm::dvec3(0);
+  const std::string_view choice = request.knobs.choice("indirect");
+  const bool psf = choice == "psf";
+  const bool scatters = (medium.extinction > 0 && medium.albedo != glm::dvec3(0)) || depth_toward_light_;
   const bool any = scatters && !lights.empty() && has_surfaces();
-  if (!any || request.knobs.choice("indirect") == "off") {
+  if (!any || choice == "off") {
     plan.skips.push_back({"indirect single scattering", any ? "indirect = off" : "no light, no surface or nothing scatters"});
     return {};
   }
+  if ((psf || choice == "mean_density") && !depth_toward_light_) {
+    const bool uneven = !gaussians_of(scene).empty() || medium.grid;
+    plan.skips.push_back({"light that Gaussians and grids scatter onto surfaces", uneven ? "they absorb all" : "there is none"});
+  }
+  if (psf && medium.phase.kind != PhaseKind::isotropic)
+    throw InputError("setting indirect: psf is of the isotropic phase function, the scene has another");
   const std::vector<Material> materials = materials_of(scene);
   const std::vector<float> shininess = shininess_of(materials);
   Hash key;
-  key.add(std::string_view("surface airlight"));
+  key.add(std::string_view(psf ? "surface psf" : "surface airlight"));
   key.add(medium.phase);
   key.add(shininess);
   const Buffer tables{{indirect_tables_id}, 0};
-  plan.uploads.push_back(
-      table_upload(tables, key.value(), [phase = medium.phase, shininess] { return surface_airlight_tables(phase, shininess); }));
-  const Image indirect = image("surface.indirect", Format::rgb32f);
+  plan.uploads.push_back(table_upload(tables, key.value(), [psf, phase = medium.phase, shininess] {
+    return psf ? surface_psf_tables(shininess) : surface_airlight_tables(phase, shininess);
+  }));
+  // More may be added to it.
+  const bool last = !scene.environment || lacks_environment_indirect();
+  const Image indirect = last ? image("surface.indirect", Format::rgb32f) : handed_on(next_id_++, Format::rgb32f, 1);
   plan.steps.push_back({SurfaceAirlight{.distance = distance,
                                         .normal = normal,
                                         .material = material,
                                         .transmittance = transmittance,
+                                        .depth_toward_light = depth_toward_light_,
                                         .tables = tables,
                                         .materials = materials,
                                         .lights = lights,
                                         .view = view,
                                         .extinction = extinction,
                                         .albedo = medium.albedo,
+                                        .rest_albedo = depth_toward_light_ ? rest_albedo() : glm::vec3(1),
+                                        .scattering = psf ? SurfaceScattering::psf : SurfaceScattering::tables,
                                         .indirect = indirect},
                         brdfs.all.empty()
                             ? "light scattered once on its way to the surfaces"
@@ -235,6 +254,8 @@ void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t firs
   }
   way.distance = distance, way.lit = lit, way.lights = lights, way.view = view;
   way.light_transmittance = handed_on(first_id + 1, Format::r32f, static_cast<int>(lights.size()));
+  if (rest_scatters()) depth_toward_light_ = handed_on(next_id_++, Format::r32f, static_cast<int>(lights.size()));
+  way.depth_toward_light = depth_toward_light_;
   plan.steps.push_back({way, "what of each light reaches the surfaces"});
   shade(way.light_transmittance);
 }
@@ -254,7 +275,7 @@ Buffer FramePlan::add_brdfs() {
 }
 
 void FramePlan::shade(Image light_transmittance) {
-  const Image indirect = add_indirect();
+  const Image indirect = add_environment_indirect(add_indirect());
   const Image environment = add_environment();
   const Buffer tables = add_brdfs();
   plan.steps.push_back({SurfaceShading{.distance = distance,

@@ -19,7 +19,7 @@
 
 namespace airlight {
 
-// `indirect`: unbounded | off.
+// `indirect`: unbounded | off | mean_density | psf, of FramePlan::shade().
 Knob indirect_knob();
 // `table_nodes`, of FramePlan::add_airlight_tables().
 Knob table_nodes_knob();
@@ -28,6 +28,8 @@ Knob environment_knob();
 // `environment_shadows`: on | off, and `environment_rays`, of what surfaces hide of an environment from each other.
 Knob environment_shadows_knob();
 Knob environment_rays_knob();
+// `environment_indirect`: off | on | published, of what of an environment the medium scatters onto surfaces.
+Knob environment_indirect_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
@@ -77,8 +79,8 @@ class FramePlan {
   // Shades the surfaces, light scattered on its way to them included where the knob asks for it. light_transmittance as in
   // SurfaceShading, or absent. After the step that makes `transmittance`.
   void shade(Image light_transmittance);
-  // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is added
-  // then. Before the step that makes `airlight`.
+  // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is
+  // added then. Before the step that makes `airlight`.
   void scatter_environment_in_fog_alone();
   // Ends the plan: composes the image from `surface` and `airlight`.
   Plan finish();
@@ -88,6 +90,10 @@ class FramePlan {
   Image optional_image(std::string_view name, Format);
   Image per_light_image();
   Image add_indirect();
+  glm::vec3 rest_albedo() const;
+  bool rest_scatters() const;
+  std::optional<std::string_view> lacks_environment_indirect() const;
+  Image add_environment_indirect(Image scattered);
   Image add_environment();
   void expect_environment_shadows();
   void add_environment_shadows();
@@ -103,7 +109,8 @@ class FramePlan {
   Image surface_, surface_direct_, surface_ambient_, beauty_;
   Image corners_, hidden_diffuse_, hidden_specular_;  // absent where surfaces hide nothing of an environment
   bool environment_in_fog_alone_ = false;
-  Image airlight_;  // with what the medium scatters of an environment; absent where that is nothing
+  Image depth_toward_light_;  // as LightMarch makes it, where what it stands for scatters onto surfaces; else absent
+  Image airlight_;            // with what the medium scatters of an environment; absent where that is nothing
 };
 
 }  // namespace airlight

@@ -95,15 +95,6 @@ void FramePlan::add_environment_airlight() {
   plan.uploads.push_back(table_upload(tables, key.value(), [environment = *scene.environment, published, phase = medium.phase] {
     return environment_airlight_table(environment, published ? npsf_coefficients() : phase_coefficients(phase));
   }));
-  // Each counts as much as it holds.
-  glm::dvec3 albedo(0);
-  double all = 0;
-  for (const Gaussian& g : medium.gaussians) {
-    const double mass = g.extinction * g.radius * g.radius * g.radius;
-    albedo += mass * g.albedo, all += mass;
-  }
-  if (medium.grid) albedo = medium.grid->albedo, all = 1;  // most of such a medium
-  if (environment_in_fog_alone_) albedo = glm::dvec3(0), all = 1;
   plan.steps.push_back(
       {EnvironmentAirlight{.distance = distance,
                            .optical_depth = optical_depth,
@@ -113,7 +104,7 @@ void FramePlan::add_environment_airlight() {
                            .extinction = extinction,
                            .sky_distance = sky_distance,
                            .albedo = medium.albedo,
-                           .gaussian_albedo = all > 0 ? albedo / all : medium.albedo,
+                           .gaussian_albedo = environment_in_fog_alone_ ? glm::vec3(0) : rest_albedo(),
                            .scattering = published ? EnvironmentScattering::published : EnvironmentScattering::depths,
                            .airlight = airlight_},
        "the environment's light, scattered once along the view ray"});

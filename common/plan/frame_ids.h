@@ -15,7 +15,8 @@ enum : std::uint32_t {
   environment_airlight_id = 8,
   hidden_environment_id = 9,
   brdf_id = 10,
-  first_image_id = 11
+  environment_indirect_id = 11,
+  first_image_id = 12
 };
 
 }  // namespace airlight

@@ -32,6 +32,7 @@ EnvironmentLighting::EnvironmentLighting(const Environment& e) : environment_(e)
   fine_ = patches(columns);
   coarse_far_ = patches(columns_for_rays / 2);
   fine_far_ = patches(columns_for_rays);
+  coarse_sky_ = patches(columns_for_rays / 4);
 }
 
 glm::dvec3 EnvironmentLighting::pixel(int column, int row) const {

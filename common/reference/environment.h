@@ -30,11 +30,15 @@ class EnvironmentLighting {
   // [W/m^2/sr]; the error is the difference to half as many patches a degree, and what the parts claim.
   Integral scattered(const std::function<Integral(const RelativeLight&)>& scattered) const;
 
- private:
   // A patch of the sphere: a direction in it, and its radiance times its solid angle.
   struct Patch {
     glm::dvec3 direction, power;
   };
+  // All of it in patches as wide as 22 degrees at most, and twice that.
+  const std::vector<Patch>& sky() const { return coarse_far_; }
+  const std::vector<Patch>& coarse_sky() const { return coarse_sky_; }
+
+ private:
   std::vector<Patch> patches(int columns) const;
   glm::dvec3 pixel(int column, int row) const;
   glm::dvec3 at(double column, double row) const;  // 0 at the first centres
@@ -42,7 +46,7 @@ class EnvironmentLighting {
 
   Environment environment_;
   int width_ = 4, height_ = 2;
-  std::vector<Patch> coarse_, fine_, coarse_far_, fine_far_;  // the latter for rays
+  std::vector<Patch> coarse_, fine_, coarse_far_, fine_far_, coarse_sky_;  // the latter for rays
 };
 
 }  // namespace airlight

@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "common/formulas/double.h"
+#include "common/reference/environment_indirect.h"
 #include "common/reference/indirect.h"
 #include "common/reference/indirect_exact.h"
 #include "common/reference/paths.h"
@@ -145,6 +146,13 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
                    static_cast<double>(material.shininess)) *
             glm::dvec3(material.specular);
     pixel.surface_direct += e * light.power * reflection;
+  }
+  if (environment_ && settings_.indirect == Indirect::exact) {
+    const glm::dvec3 face = glm::dot(seen.face, seen.direction) > 0 ? -seen.face : seen.face;
+    const Integral scattered = exact_environment_indirect(medium_, visibility_, *environment_,
+                                                          {seen.point, seen.normal, face, mirror, seen.triangle, &material});
+    pixel.surface_indirect += scattered.value;
+    error += pixel.transmittance * scattered.error;
   }
   if (!medium_.empty()) pixel.surface_ambient = glm::dvec3(material.diffuse) * medium_.ambient;
   pixel.surface_direct *= pixel.transmittance;

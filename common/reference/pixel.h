@@ -16,7 +16,8 @@
 namespace airlight {
 
 // Light that scatters once on its way to surfaces: none; of the unbounded homogeneous medium without shadows, which is what
-// techniques render; of the medium and the surfaces that there are (indirect_exact.h).
+// techniques render; of the medium and the surfaces that there are (indirect_exact.h). Of an environment: only exact
+// (environment_indirect.h).
 enum class Indirect { off, unbounded, exact };
 
 struct ReferenceSettings {
@@ -62,8 +63,8 @@ struct ReferenceParts {
 // once (or up to max_bounces times) in the homogeneous medium, Gaussians and the grid, direct light on surfaces, r_l as the least
 // distance to a point light. What surfaces send does not depend on max_bounces: light scattered more than once does not
 // illuminate them, and what they reflect is not scattered (paths.h tells all that is in it). An
-// environment's light is hidden by surfaces on its way to others, and by nothing on its way into the medium. Emission of a
-// Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
+// environment's light is hidden by surfaces on its way to others, and by nothing on its way into the medium, which scatters it
+// toward surfaces where what is indirect is exact. Emission of a Gaussian is its `emission` times exp(-|x-center|^2 / radius^2).
 class Reference {
  public:
   // Throws InputError where a directional light or an environment and homogeneous fog of albedo 1 have no sum of so many orders.

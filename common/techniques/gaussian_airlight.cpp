@@ -227,6 +227,7 @@ Technique gaussian_airlight() {
       airlight_resolution_knob(),
       indirect_knob(),
       environment_knob(),
+      environment_indirect_knob(),
       environment_shadows_knob(),
       environment_rays_knob()};
   t.refuses = refuses;

@@ -318,6 +318,7 @@ Technique illumination_network() {
              airlight_resolution_knob(),
              indirect_knob(),
              scattered_environment_knob(),
+             environment_indirect_knob(),
              environment_shadows_knob(),
              environment_rays_knob()};
   t.multiple_scattering = true;

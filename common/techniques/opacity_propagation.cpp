@@ -207,6 +207,7 @@ Technique opacity_propagation() {
       airlight_resolution_knob(),
       indirect_knob(),
       environment_knob(),
+      environment_indirect_knob(),
       environment_shadows_knob(),
       environment_rays_knob()};
   t.refuses = [](const Scene& scene) {

@@ -9,7 +9,7 @@ namespace {
 
 Knob exact_indirect_knob() {
   Knob knob = indirect_knob();
-  knob.choices.push_back("exact");
+  knob.choices = {"unbounded", "off", "exact"};
   knob.meaning =
       "light scattered once on its way to surfaces: of an unbounded homogeneous medium without shadows, as techniques render it, "
       "or "

@@ -115,6 +115,7 @@ Technique shadow_planes() {
        .baselines = {"published"}},
       indirect_knob(),
       environment_knob(),
+      environment_indirect_knob(),
       environment_shadows_knob(),
       environment_rays_knob()};
   t.refuses = refuses;

@@ -28,6 +28,7 @@ std::vector<NamedCase> all_cases() {
                           depth_aware_upsample_cases(),
                           fill_airlight_cases(),
                           environment_airlight_cases(),
+                          environment_indirect_cases(),
                           hidden_environment_cases(),
                           compose_cases(),
                           frame_cases()}) {

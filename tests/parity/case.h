@@ -53,6 +53,7 @@ std::span<const NamedCase> depth_aware_upsample_cases();
 std::span<const NamedCase> fill_airlight_cases();
 std::span<const NamedCase> environment_airlight_cases();
 std::span<const NamedCase> hidden_environment_cases();
+std::span<const NamedCase> environment_indirect_cases();
 std::span<const NamedCase> compose_cases();
 std::span<const NamedCase> frame_cases();
 std::vector<NamedCase> all_cases();

@@ -6,7 +6,7 @@ namespace airlight {
 namespace {
 
 Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int light_steps, bool shadowed = false,
-           Erf erf = Erf::accurate) {
+           Erf erf = Erf::accurate, bool with_depth = false) {
   Case c;
   const View view = test_view(extent);
   const TestSurfaces surfaces = sphere_on_plane(view, 1);
@@ -16,6 +16,7 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
   if (grid) add_test_grid(medium, c, 4);
   const std::vector<Light> lights = test_lights();
   const Image through{{5}, Format::r32f, extent, static_cast<int>(lights.size()), true};
+  const Image toward{{7}, Format::r32f, extent, static_cast<int>(lights.size()), true};
   const Image lit{{6}, Format::r32f, extent, static_cast<int>(lights.size()), false};
   if (shadowed) {
     std::vector<float> values(lights.size() * surfaces.distances.size());
@@ -34,9 +35,11 @@ Case march(Extent extent, int gaussians, bool grid, LightDepth light_depth, int 
                          .light_steps = light_steps,
                          .light_depth = light_depth,
                          .erf = erf,
-                         .light_transmittance = through},
+                         .light_transmittance = through,
+                         .depth_toward_light = with_depth ? toward : Image{}},
               ""}};
   c.results = {{"light_transmittance", through}};
+  if (with_depth) c.results.push_back({"depth_toward_light", toward});
   return c;
 }
 
@@ -44,6 +47,7 @@ const NamedCase cases[] = {
     {"light_march/analytic", [](Extent e) { return march(e, 7, false, LightDepth::analytic, 1); }},
     {"light_march/fast_erf", [](Extent e) { return march(e, 7, false, LightDepth::analytic, 1, false, Erf::fast); }},
     {"light_march/shadowed", [](Extent e) { return march(e, 3, false, LightDepth::analytic, 1, true); }},
+    {"light_march/depth_too", [](Extent e) { return march(e, 7, true, LightDepth::analytic, 8, true, Erf::accurate, true); }},
     {"light_march/marched", [](Extent e) { return march(e, 5, false, LightDepth::march, 16); }},
     {"light_march/grid", [](Extent e) { return march(e, 0, true, LightDepth::analytic, 24); }},
     {"light_march/everything", [](Extent e) { return march(e, 4, true, LightDepth::march, 16); }},

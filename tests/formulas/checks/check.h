@@ -90,13 +90,15 @@ enum class Formula : int {
   seen_side = 85,               // as shading_normal -> 1 or -1
   between_corners = 86,         // three values, weights of b and c
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
-  half_angles = 90,             // normal, to the light, to the viewer -> of the half vector, from it, around it
-  brdf_reflection = 91,         // the same; the table: of a reflectance -> red, green, blue
-  brdf_environment = 92,        // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue
-  splat_before = 95,            // s
-  splat_depth = 96,             // d, c, 1 / support, peak, end -> depth, foot
-  splat_opacity = 97,           // tau
-  direction_weight = 98,        // mu, 1 / reach
+  surface_airlight_psf = 81,    // lambda, cosine; the table is one of surface_psf_tables()
+  environment_scattered_to_surface = 82,  // mean depth of the rest -> of the homogeneous part, of the rest
+  half_angles = 90,                       // normal, to the light, to the viewer -> of the half vector, from it, around it
+  brdf_reflection = 91,                   // the same; the table: of a reflectance -> red, green, blue
+  brdf_environment = 92,                  // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue
+  splat_before = 95,                      // s
+  splat_depth = 96,                       // d, c, 1 / support, peak, end -> depth, foot
+  splat_opacity = 97,                     // tau
+  direction_weight = 98,                  // mu, 1 / reach
 };
 constexpr std::size_t most_inputs = 14, most_results = 3;
 

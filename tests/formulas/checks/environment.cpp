@@ -191,6 +191,23 @@ Measured measure_scattered(const Run& run) {
   return m;
 }
 
+// exp(-g), and int_0^g exp(-2 t) dt.
+Measured measure_scattered_to_surface(const Run& run) {
+  Random random(stream + 6);
+  Columns in;
+  for (const double g : {0.0, 1e-38, 1e-20, 1.0, 86.0, 1e4, 1e30}) add_call(in, g);
+  for (int i = 0; i < 2000; ++i) add_call(in, random.magnitude(1e-6, 60));
+  const Columns found = run({Formula::environment_scattered_to_surface, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double g = in[0][i];
+    m.add(std::max(std::fabs(found[0][i] - std::exp(-g)), std::fabs(found[1][i] + std::expm1(-2 * g) / 2)), [&] {
+      return place({{"g", g}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_environment_checks(std::vector<Check>& checks) {
@@ -200,6 +217,8 @@ void add_environment_checks(std::vector<Check>& checks) {
   checks.push_back({"environment_value", measure_value, "environment_value_double", "environment_value"});
   checks.push_back({"environment_share", measure_share, "environment_share", "environment_share"});
   checks.push_back({"environment_scattered", measure_scattered, "environment_scattered_double", "environment_scattered"});
+  checks.push_back({"environment_scattered_to_surface", measure_scattered_to_surface, "environment_scattered_double",
+                    "environment_scattered"});
   checks.push_back({"environment_reflection", measure_reflection, "environment_reflection_double", "environment_reflection"});
 }
 

@@ -1,9 +1,14 @@
 // Indirect single scattering on surfaces: the high-precision tables, closed forms for a directional light, extremes.
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
 #include "common/plan/surface_airlight_tables.h"
+#include "common/plan/surface_psf.h"
+#include "common/plan/zonal.h"
 #include "tests/formulas/checks/random.h"
+#include "tests/formulas/checks/sphere.h"
 #include "tests/formulas/rows.h"
 
 namespace airlight {
@@ -100,12 +105,51 @@ Measured measure_extremes(const Run& run) {
   return m;
 }
 
+// NPSF's first six bands (the C++ library's harmonics) turned to the light and integrated over the lobe, by a rule about the
+// lobe's axis that is exact for such polynomials.
+Measured measure_psf(const Run& run) {
+  const std::vector<float> exponents{2, 8}, tables = surface_psf_tables(exponents);
+  const Zonal npsf = npsf_coefficients();
+  Random random(161);
+  Columns in;
+  for (const double lambda : {0.0, 1e-30, 1.0, 80.0, 1e4, 1e30}) add_call(in, lambda, 0.5);
+  for (int i = 0; i < 300; ++i) add_call(in, random.magnitude(1e-3, 30), i == 0 ? 1 : i == 1 ? -1 : random.number(-1, 1));
+  Measured m;
+  for (std::size_t which = 0; which <= exponents.size(); ++which) {
+    const double n = which == 0 ? 1 : static_cast<double>(exponents[which - 1]), scale = which == 0 ? pi : 1;
+    const auto of_light = [&](double c) {
+      const double s = std::sqrt(std::max(0.0, 1 - c * c));
+      double sum = 0;
+      for (std::size_t k = 0; k < 8; ++k) {
+        const double x = 0.5 + (k % 2 == 0 ? 0.5 : -0.5) * gauss_node[k / 2], y = std::sqrt(1 - x * x);
+        const double weight = scale * gauss_weight[k / 2] / 2 * (n + 1) * std::pow(x, n) / 16;
+        for (int a = 0; a < 16; ++a) {
+          const double cosine = std::clamp(x * c + y * s * std::cos(pi * a / 8), -1.0, 1.0);
+          for (unsigned l = 0; l < 6; ++l) sum += weight * npsf[l] * std::sqrt((2 * l + 1) / (4 * pi)) * std::legendre(l, cosine);
+        }
+      }
+      return std::max(sum, 0.0);
+    };
+    const double top = of_light(1);
+    const std::span<const float> table = std::span(tables).subspan(which * surface_psf_floats, surface_psf_floats);
+    const Columns found = run({Formula::surface_airlight_psf, in, {}, table});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      const double lambda = in[0][i], share = lambda * std::exp(-lambda);
+      m.add(std::fabs(found[0][i] - share * of_light(in[1][i])) / (top * std::max(share * (1 + lambda), 1e-36)), [&] {
+        return place({{"shininess", n}, {"lambda", lambda}, {"cosine", in[1][i]}, {"found", found[0][i]}});
+      });
+    }
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_surface_airlight_checks(std::vector<Check>& checks) {
   checks.push_back({"surface_airlight_lambert", measure_lambert, "surface_airlight_table", "surface_airlight_table"});
   checks.push_back({"surface_airlight_phong", measure_phong, "surface_airlight_table", "surface_airlight_table"});
   checks.push_back({"surface_airlight_directional", measure_directional, "surface_airlight_sun", "surface_airlight_sun"});
+  checks.push_back({"surface_airlight_psf", measure_psf, "surface_airlight_psf_double", "surface_airlight_psf"});
   checks.push_back({"surface_airlight_extremes", measure_extremes, "exact_double", "exact_double"});
 }
 
