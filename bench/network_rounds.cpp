@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <ctime>
 #include <span>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -125,12 +124,10 @@ std::vector<double> published(CpuBackend& backend, const Ran& ran, int rounds) {
   return means;
 }
 
-// Rounds until no more than a share of the light is missing of what there is in the end; 0 where that is never.
-std::string rounds_to(const std::vector<double>& sums, double share) {
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (sums[k] >= (1 - share) * sums.back()) return std::to_string(k + 1);
-  }
-  return "";
+// Rounds until no more than a share of the light is missing of what there is in the end.
+int rounds_to(const std::vector<double>& sums, double share) {
+  const auto enough = [&](double sum) { return sum >= (1 - share) * sums.back(); };
+  return static_cast<int>(std::find_if(sums.begin(), sums.end(), enough) - sums.begin()) + 1;
 }
 
 void convergence(CpuBackend& backend) {
@@ -150,7 +147,7 @@ void convergence(CpuBackend& backend) {
                  rounds_to(ours, 0.01), rounds_to(ours, 0.001), rounds_to(theirs, 0.1), rounds_to(theirs, 0.01),
                  rounds_to(theirs, 0.001));
       const double a_round = 1e-3 * ran.milliseconds[2] / static_cast<double>(ran.steps[2].residuals.size());
-      fmt::print("; {:.1f} ms\n", 1e3 * a_round * std::stod("0" + rounds_to(ours, 0.001)));
+      fmt::print("; {:.1f} ms\n", 1e3 * a_round * rounds_to(ours, 0.001));
     }
   }
 }

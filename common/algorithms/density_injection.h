@@ -8,9 +8,9 @@
 
 namespace airlight {
 
-// The extinction of Gaussians and of a grid at the centres of a box of cubes, laid out as common/algorithms/voxel_table.h tells, so that it
-// is a grid itself. Places are metres from the box's corner, whatever the camera does. Of a Gaussian, as injected_gaussian() in
-// common/formulas/depth_volume.h tells; the grid is looked up at the centres.
+// The extinction of Gaussians and of a grid at the centres of a box of cubes, laid out as common/algorithms/voxel_table.h tells,
+// so that it is a grid itself. Places are metres from the box's corner, whatever the camera does. Of a Gaussian, as
+// injected_gaussian() in common/formulas/depth_volume.h tells; the grid is looked up at the centres.
 struct DensityInjection {
   std::vector<GaussianDensity> gaussians;  // those of equal albedo that do not glow
   Buffer voxels;                           // the grid's, with a grid

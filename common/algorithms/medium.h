@@ -17,8 +17,8 @@ struct GaussianDensity {
   glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] at the centre
 };
 
-// Where a voxel grid stands. Its extinctions are a buffer (common/algorithms/voxel_table.h). Row i of `cells` takes a place (x, y, z, 1) to
-// coordinate i in cells, 0 at the first centre; 0 cells: no grid.
+// Where a voxel grid stands. Its extinctions are a buffer (common/algorithms/voxel_table.h). Row i of `cells` takes a place (x,
+// y, z, 1) to coordinate i in cells, 0 at the first centre; 0 cells: no grid.
 struct GridDensity {
   glm::vec4 cells[3] = {};
   glm::vec3 size{0, 0, 0};    // cells an axis

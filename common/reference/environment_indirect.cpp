@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/formulas/double.h"
+#include "common/scene/brdf.h"
 
 namespace airlight {
 
@@ -92,16 +93,28 @@ Integral exact_environment_indirect(const RelativeMedium& medium, const Visibili
   const double from = 1e-9 * glm::length(at.point);
   const auto sum_of = [&](int rings, const std::vector<EnvironmentLighting::Patch>& sky) {
     glm::dvec3 sum(0);
-    const auto lobe = [&](const glm::dvec3& axis, double exponent, const glm::dvec3& reflectance) {
-      if (reflectance == glm::dvec3(0)) return;
+    // The mean over directions that are as frequent as a lobe is wide of what comes from them times reflectance(direction).
+    const auto lobe = [&](const glm::dvec3& axis, double exponent, const auto& reflectance) {
       about(axis, exponent, rings, [&](const glm::dvec3& u) {
         if (!(glm::dot(u, at.face) > 0)) return;
         const auto hit = visibility.nearest(at.point, u, from, at.triangle);
-        sum += reflectance * ArrivingRay(medium, at.point, u, hit ? hit->distance : infinity).brought(sky);
+        sum += reflectance(u) * ArrivingRay(medium, at.point, u, hit ? hit->distance : infinity).brought(sky);
       });
     };
-    lobe(at.normal, 1, glm::dvec3(at.material->diffuse));
-    lobe(at.mirror, static_cast<double>(at.material->shininess), glm::dvec3(at.material->specular));
+    const Material& material = at.surface->material;
+    if (at.surface->brdf) {
+      const glm::dvec3 viewer = 2 * glm::dot(at.normal, at.mirror) * at.normal - at.mirror;
+      lobe(at.normal, 1, [&](const glm::dvec3& u) {
+        const double frequency = std::max(glm::dot(at.normal, u), 1e-12) / pi;
+        return tabulated_reflection(*at.surface->brdf, at.normal, u, viewer) / frequency;
+      });
+    } else {
+      if (material.diffuse != glm::vec3(0)) lobe(at.normal, 1, [&](const glm::dvec3&) { return glm::dvec3(material.diffuse); });
+      if (material.specular != glm::vec3(0)) {
+        lobe(at.mirror, static_cast<double>(material.shininess),
+             [&](const glm::dvec3&) { return glm::dvec3(material.specular); });
+      }
+    }
     return sum / (2.0 * rings * rings);
   };
   const glm::dvec3 fine = sum_of(fine_rings, environment.sky()), coarse = sum_of(fine_rings / 2, environment.coarse_sky());

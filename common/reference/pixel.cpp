@@ -150,7 +150,7 @@ void Reference::shade(const glm::dvec3& d, const Seen& seen, ReferencePixel& pix
   if (environment_ && settings_.indirect == Indirect::exact) {
     const glm::dvec3 face = glm::dot(seen.face, seen.direction) > 0 ? -seen.face : seen.face;
     const Integral scattered = exact_environment_indirect(medium_, visibility_, *environment_,
-                                                          {seen.point, seen.normal, face, mirror, seen.triangle, &material});
+                                                          {seen.point, seen.normal, face, mirror, seen.triangle, &surface});
     pixel.surface_indirect += scattered.value;
     error += pixel.transmittance * scattered.error;
   }
@@ -197,8 +197,7 @@ void Reference::add_airlight(const RayInMedium& ray, const glm::dvec2& at, Refer
     error += part.error;
   }
   if (settings_.any_paths()) {
-    const Paths paths(medium_, visibility_, lights_,
-                      environment_ ? &*environment_ : nullptr,
+    const Paths paths(medium_, visibility_, lights_, environment_ ? &*environment_ : nullptr,
                       {settings_.max_bounces, settings_.paths, settings_.single_by_paths, settings_.shadows, settings_.seed});
     const PathEstimate more = paths.along(ray, at, stop);
     for (std::size_t i = 0; i < lights_.size(); ++i) {

@@ -122,7 +122,7 @@ Technique marching() {
              airlight_resolution_knob(),
              indirect_knob(),
              environment_knob(),
-      environment_indirect_knob(),
+             environment_indirect_knob(),
              environment_shadows_knob(),
              environment_rays_knob()};
   t.refuses = [](const Scene& scene) {

@@ -1,6 +1,6 @@
+#include "common/algorithms/voxel_table.h"
 #include "common/plan/depth_volumes.h"
 #include "common/plan/geometry.h"
-#include "common/algorithms/voxel_table.h"
 #include "common/plan/voxels.h"
 #include "tests/parity/medium.h"
 

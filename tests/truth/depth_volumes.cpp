@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "common/algorithms/voxel_table.h"
 #include "common/formulas/float.h"
 #include "common/plan/depth_volumes.h"
 #include "common/plan/geometry.h"
-#include "common/algorithms/voxel_table.h"
 #include "common/reference/optical_depth.h"
 #include "cpu/backend.h"
 #include "tests/parity/inputs.h"
