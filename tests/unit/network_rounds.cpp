@@ -42,7 +42,7 @@ TEST(NetworkRounds, EndWhereAsMuchIsLeftOutAsTheyTell) {
     const Phase phase = g == 0 ? Phase{} : Phase{PhaseKind::henyey_greenstein, g};
     for (const double albedo : {0.5, 0.9, 1.0}) {
       for (const double depth : {2.0, 20.0}) {
-        for (const std::size_t light : {0, 1}) {
+        for (const std::size_t light : {0U, 1U}) {
           std::vector<LightSource> lights{network_lights()[light]};
           if (light == 0) lights[0].position = {-0.4, 0, 0.1};
           NetworkParts parts{
