@@ -11,6 +11,8 @@
 #include "cpu/pixel_rays.h"
 //
 #include "cpu/lane_surface.h"
+//
+#include "cpu/environment_lobes.h"
 #include "cpu/mean_depth.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,22 +27,7 @@ static void environment_indirect(const EnvironmentIndirect& a, const TileView& v
     Real sum[3] = {0.0, 0.0, 0.0};
     if (any_lane(hit)) {
       const LaneMaterial& m = surface.material;
-      const auto lobe = [&](const float* t, const Real3& about, Real* radiance) HWY_ATTR {
-        environment_reflection(t + environment_share_floats, about.x, about.y, about.z, radiance[0], radiance[1], radiance[2]);
-      };
-      Real diffuse[3], specular[3] = {0.0, 0.0, 0.0};
-      lobe(tables, surface.normal, diffuse);
-      const Real glossy = max(max(m.specular[0], m.specular[1]), m.specular[2]);
-      const Real level = dot(surface.normal, surface.mirror);
-      for (std::size_t k = 0; k < shininess.size(); ++k) {
-        const Mask mine = hit && (glossy > 0.0) && (m.shininess >= shininess[k]) && (m.shininess <= shininess[k]);
-        if (!any_lane(mine)) continue;
-        const float* t = tables + (k + 1) * environment_lobe_floats;
-        const Real share = environment_share(t, level);
-        Real radiance[3];
-        lobe(t, surface.mirror, radiance);
-        for (int c = 0; c < 3; ++c) specular[c] = select(mine, radiance[c] * share, specular[c]);
-      }
+      const LaneLobes lobes(tables, shininess, surface);
       const Real depth = mean_depth(a.gaussians, surface.place);
       Real of_homogeneous, of_rest;
       environment_scattered_to_surface(depth, of_homogeneous, of_rest);
@@ -51,7 +38,7 @@ static void environment_indirect(const EnvironmentIndirect& a, const TileView& v
       const Real seen = load(through + i);
       for (int c = 0; c < 3; ++c) {
         const Real albedo = fma(of_homogeneous, a.albedo[c], of_rest * a.gaussian_albedo[c]) * seen;
-        sum[c] = select(hit, fma(m.diffuse[c], diffuse[c], m.specular[c] * specular[c]) * albedo, 0.0);
+        sum[c] = select(hit, fma(m.diffuse[c], lobes.diffuse[c], m.specular[c] * lobes.specular[c]) * albedo, 0.0);
       }
     }
     for (int c = 0; c < 3; ++c) {

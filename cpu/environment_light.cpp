@@ -12,6 +12,8 @@
 #include "cpu/pixel_rays.h"
 //
 #include "cpu/lane_surface.h"
+//
+#include "cpu/environment_lobes.h"
 #include "cpu/mean_depth.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,30 +37,15 @@ static void environment_light(const EnvironmentLight& a, const TileView& view, s
     }
     if (any_lane(hit)) {
       const LaneMaterial& m = surface.material;
-      const auto lobe = [&](const float* t, const Real3& about, Real* radiance) HWY_ATTR {
-        environment_reflection(t + environment_share_floats, about.x, about.y, about.z, radiance[0], radiance[1], radiance[2]);
-      };
-      Real diffuse[3], specular[3] = {0.0, 0.0, 0.0};
-      lobe(tables, surface.normal, diffuse);
-      const Real glossy = max(max(m.specular[0], m.specular[1]), m.specular[2]);
-      const Real level = dot(surface.normal, surface.mirror);
-      for (std::size_t k = 0; k < shininess.size(); ++k) {
-        const Mask mine = hit && (glossy > 0.0) && (m.shininess >= shininess[k]) && (m.shininess <= shininess[k]);
-        if (!any_lane(mine)) continue;
-        const float* t = tables + (k + 1) * environment_lobe_floats;
-        const Real share = environment_share(t, level);
-        Real radiance[3];
-        lobe(t, surface.mirror, radiance);
-        for (int c = 0; c < 3; ++c) specular[c] = select(mine, radiance[c] * share, specular[c]);
-      }
+      LaneLobes lobes(tables, shininess, surface);
       const auto lessen = [&](const Image& hidden, Real* radiance) HWY_ATTR {
         for (int c = 0; c < 3 && hidden; ++c) radiance[c] = max(radiance[c] - load(view.plane(hidden, c) + i), 0.0);
       };
-      lessen(a.hidden_diffuse, diffuse);
-      lessen(a.hidden_specular, specular);
+      lessen(a.hidden_diffuse, lobes.diffuse);
+      lessen(a.hidden_specular, lobes.specular);
       const Real attenuation = transmittance(mean_depth(a.gaussians, surface.place));
       Real reflected[3];
-      for (int c = 0; c < 3; ++c) reflected[c] = fma(m.diffuse[c], diffuse[c], m.specular[c] * specular[c]);
+      for (int c = 0; c < 3; ++c) reflected[c] = fma(m.diffuse[c], lobes.diffuse[c], m.specular[c] * lobes.specular[c]);
       for (std::size_t b = 0; b < brdfs; ++b) {
         const Real number = static_cast<float>(b), tabulated = lane_brdf(brdf, surface.index);
         const Mask mine = hit && (tabulated >= number) && (tabulated <= number);

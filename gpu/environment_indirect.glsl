@@ -1,6 +1,7 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/mean_depth.glsl"
+#include "gpu/environment_lobes.glsl"
 
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray normal_image;
@@ -19,12 +20,6 @@ layout(std140, binding = 2) uniform Knobs {
 // Two vectors a material: diffuse; specular and where its lobe's table begins.
 layout(std430, binding = 0) readonly buffer MaterialBlock { vec4 materials[]; };
 
-vec3 lobe(int t, vec3 about) {
-  vec3 radiance;
-  environment_reflection(t + int(gaussian_albedo_share.w), about.x, about.y, about.z, radiance.x, radiance.y, radiance.z);
-  return radiance;
-}
-
 void main() {
   ivec2 p = this_pixel();
   if (outside(p)) return;
@@ -36,11 +31,9 @@ void main() {
     vec4 specular_table = materials[2 * int(index) + 1];
     vec3 d = pixel_ray(p);
     vec3 n = texelFetch(normal_image, at, 0).xyz;
-    sum = diffuse * lobe(0, n);
+    sum = diffuse * environment_lobe(0, int(gaussian_albedo_share.w), n);
     if (specular_table.xyz != vec3(0.0)) {
-      vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
-      int t = int(specular_table.w);
-      sum += specular_table.xyz * (lobe(t, mirror) * environment_share(t, dot3(n, mirror)));
+      sum += specular_table.xyz * environment_mirrored(int(specular_table.w), int(gaussian_albedo_share.w), n, d);
     }
     float depth = mean_depth(int(albedo_gaussians.w), d * texelFetch(distance_image, at, 0).x);
     float of_homogeneous;

@@ -1,6 +1,7 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/mean_depth.glsl"
+#include "gpu/environment_lobes.glsl"
 
 layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray normal_image;
@@ -24,12 +25,6 @@ layout(std430, binding = 0) readonly buffer MaterialBlock { vec4 materials[]; };
 layout(std430, binding = 2) readonly buffer BrdfBlock { int lobes[]; };
 #endif
 
-vec3 lobe(int t, vec3 about) {
-  vec3 radiance;
-  environment_reflection(t + counts.z, about.x, about.y, about.z, radiance.x, radiance.y, radiance.z);
-  return radiance;
-}
-
 void main() {
   ivec2 p = this_pixel();
   if (outside(p)) return;
@@ -41,15 +36,13 @@ void main() {
     vec3 diffuse = materials[2 * int(index)].xyz;
     vec4 specular_table = materials[2 * int(index) + 1];
     vec3 n = texelFetch(normal_image, at, 0).xyz;
-    vec3 radiance = lobe(0, n);
+    vec3 radiance = environment_lobe(0, counts.z, n);
 #ifdef WITH_HIDDEN_DIFFUSE
     radiance = max(radiance - texelFetch(hidden_diffuse_image, at, 0).xyz, 0.0);
 #endif
     light = diffuse * radiance;
     if (specular_table.xyz != vec3(0.0)) {
-      vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
-      int t = int(specular_table.w);
-      radiance = lobe(t, mirror) * environment_share(t, dot3(n, mirror));
+      radiance = environment_mirrored(int(specular_table.w), counts.z, n, d);
 #ifdef WITH_HIDDEN_SPECULAR
       radiance = max(radiance - texelFetch(hidden_specular_image, at, 0).xyz, 0.0);
 #endif
