@@ -14,7 +14,7 @@ namespace {
 
 constexpr Extent small{12, 12}, full{512, 512};
 
-constexpr NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}};
+constexpr NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}, {100000, 256, 128}};
 
 void errors(int paths) {
   fmt::print(

@@ -57,27 +57,35 @@ NetworkParts parts_of(const Scene& scene, int particles, int directions, float t
 // The least of a few runs; of a round what more of them take.
 void costs() {
   fmt::print(
-      "Milliseconds of one core, of what {} threads took together, the least of 7 runs; source function of 13 nodes\n"
-      "along the longest edge\n",
+      "Milliseconds of one core, of what {} threads took together, the least of 7 runs (of 3 from 16384 particles on);\n"
+      "source function of 13 nodes along the longest edge; MiB that steps hand on\n",
       std::thread::hardware_concurrency());
-  fmt::print("{:>9} {:>10} {:>4} {:>8} {:>8} {:>8} {:>9} {:>8}\n", "particles", "directions", "g", "network", "light", "round",
-             "set up", "sources");
+  fmt::print("{:>9} {:>10} {:>4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6}\n", "particles", "directions", "g", "network", "light",
+             "round", "set up", "sources", "MiB");
   for (const double g : {0.0, 0.6}) {
     const Scene scene = network_cloud(10, 0.9, g);
-    for (const auto& [particles, directions] :
-         {std::pair{512, 128}, {1024, 128}, {4096, 64}, {4096, 128}, {4096, 256}, {16384, 256}}) {
-      if (g > 0 && particles > 4096) continue;
+    for (const auto& [particles, directions] : {std::pair{512, 128},
+                                                {1024, 128},
+                                                {4096, 64},
+                                                {4096, 128},
+                                                {4096, 256},
+                                                {16384, 64},
+                                                {16384, 256},
+                                                {100000, 64},
+                                                {100000, 256}}) {
       const int few = 2, many = g > 0 ? 12 : 42;
       double least[4] = {1e9, 1e9, 1e9, 1e9}, of_many = 1e9;
-      for (int i = 0; i < 7; ++i) {
+      double bytes = 0;
+      for (int i = 0; i < (particles < 16384 ? 7 : 3); ++i) {
         CpuBackend first(CpuOptions{}), second(CpuOptions{});
         const Ran ran = run(first, scene, parts_of(scene, particles, directions, 0, few));
         for (std::size_t k = 0; k < 4; ++k) least[k] = std::min(least[k], ran.milliseconds[k]);
+        bytes = static_cast<double>(ran.network.network.links.bytes + 2 * ran.network.light.first.bytes);
         of_many = std::min(of_many, run(second, scene, parts_of(scene, particles, directions, 0, many)).milliseconds[2]);
       }
       const double round = (of_many - least[2]) / (many - few);
-      fmt::print("{:9} {:10} {:4} {:8.2f} {:8.2f} {:8.3f} {:9.2f} {:8.2f}\n", particles, directions, g, least[0], least[1], round,
-                 least[2] - few * round, least[3]);
+      fmt::print("{:9} {:10} {:4} {:8.2f} {:8.2f} {:8.3f} {:9.2f} {:8.2f} {:6.0f}\n", particles, directions, g, least[0],
+                 least[1], round, least[2] - few * round, least[3], bytes / (1 << 20));
       std::fflush(stdout);
     }
   }

@@ -133,6 +133,18 @@ class ParticleSampler {
   std::size_t next_ = 0;
 };
 
+// Number of a place along Morton's curve, which keeps neighbours together.
+std::uint64_t along_curve(const glm::ivec3& place) {
+  std::uint64_t number = 0;
+  for (unsigned bit = 0; bit < 14; ++bit) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto on_axis = static_cast<std::uint64_t>(place[axis] + lattice_side);
+      number |= (on_axis >> bit & 1U) << (3 * bit + static_cast<unsigned>(axis));
+    }
+  }
+  return number;
+}
+
 // A vector of the lattice.
 glm::ivec3 rounded(const glm::dvec3& v) { return glm::ivec3(glm::floor(v * static_cast<double>(lattice_length) + 0.5)); }
 
@@ -149,9 +161,13 @@ double network_mass(const Scene& scene, const NetworkFrame& frame) { return Part
 std::vector<float> network_particles(const Scene& scene, const NetworkFrame& frame, int count) {
   const auto n = static_cast<std::size_t>(count);
   ParticleSampler sampler(scene, frame);
+  std::vector<glm::ivec3> places(n);
+  for (std::size_t k = 0; k < n; ++k) places[k] = sampler.place(k, n);
+  std::sort(places.begin(), places.end(),
+            [](const glm::ivec3& a, const glm::ivec3& b) { return along_curve(a) < along_curve(b); });
   std::vector<float> planes(particle_planes * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const glm::ivec3 place = sampler.place(k, n);
+    const glm::ivec3& place = places[k];
     const Mixture m = sampler.mixture(place);
     const double scale = m.extinction > 0 ? 1 / m.extinction : 0;
     planes[particle_extinction * n + k] = static_cast<float>(m.extinction);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "common/error.h"
 #include "common/plan/environment.h"
 #include "common/plan/frame.h"
 #include "common/plan/hash.h"
@@ -56,6 +57,16 @@ enum : std::uint32_t {
   splats_id = samples_id + sampled_airlight_ids
 };
 
+// Throws InputError where the steps would hand on more than 2 GiB, of which the CPU takes about three times as much in all; then
+// every index fits 32 bits, too.
+void refuse_size(int particles, std::size_t directions, std::size_t floats) {
+  constexpr std::size_t most_floats = std::size_t{1} << 29U;
+  if (floats > most_floats)
+    throw InputError("setting particles: the network of " + std::to_string(particles) + " particles and " +
+                     std::to_string(directions) + " directions would take " + std::to_string(floats >> 18U) +
+                     " MiB, expected at most " + std::to_string(most_floats >> 18U));
+}
+
 bool splatted(const KnobValues& knobs) { return knobs.choice("image") == "splats"; }
 
 // The steps before the view ray, and what RayMarch reads of them.
@@ -97,6 +108,9 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                             .unit = unit,
                             .extinction = frame.extinction,
                             .links = {}};
+  const std::size_t directions = 2 * static_cast<std::size_t>(lines);
+  const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
+  refuse_size(particles, directions, network.shape().links() + 2 * values);
   network.links = {{links_id}, bytes(network.shape().links())};
   frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
@@ -114,7 +128,6 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
     frame.scatter_environment_in_fog_alone();
   }
 
-  const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : 2 * static_cast<std::size_t>(lines));
   ParticleLight light{.particles = network.particles,
                       .lines = network.lines,
                       .voxels = voxels,
@@ -259,7 +272,7 @@ Technique illumination_network() {
               .kind = Knob::Kind::integer,
               .standard = "4096",
               .least = 1,
-              .most = 16384,
+              .most = 100000,
               .choices = {},
               .meaning = "how many stand for the medium",
               .sweep = {}},

@@ -193,8 +193,8 @@ TEST(IlluminationNetwork, WhatGoesInComesOut) { out_is_in({}); }
 TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::henyey_greenstein, 0.7}); }
 
 // Each particle once a line, in order, in the pixel where it is; the links of a list add up to the whole line through its pixel.
-TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
-  const RanNetwork ran(two_gaussians(1), {}, {.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F});
+void links_are_lines(const NetworkParts& parts) {
+  const RanNetwork ran(two_gaussians(1), {}, parts);
   double worst = 0, worst_other = 0;
   for (std::size_t line = 0; line < ran.shape.lines; ++line) {
     std::set<std::size_t> seen;
@@ -243,6 +243,11 @@ TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
   std::printf("depth of a line off by %g, shares of a link by %g\n", worst, worst_other);
   EXPECT_LE(worst, tolerance("network_line_depth"));
   EXPECT_LE(worst_other, tolerance("link_shares"));
+}
+
+TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
+  links_are_lines({.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F, .iterations = 1});
+  links_are_lines({.particles = 100000, .lines = 1, .window = 46, .extinction = 0.3F, .iterations = 1});
 }
 
 // Means and second moments of the particles about each Gaussian, and how many each has.
