@@ -86,11 +86,12 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   const int particles = static_cast<int>(knobs.number("particles"));
   const int lines = (static_cast<int>(knobs.number("directions")) + 1) / 2, window = window_of(particles);
   const int iterations = static_cast<int>(knobs.number("iterations"));
+  const DirectionSet set = knobs.choice("direction_set") == "random" ? DirectionSet::random : DirectionSet::fibonacci;
   const MediumBox box = medium_box(scene, static_cast<int>(knobs.number("resolution")));
   const NetworkFrame lattice = network_frame(box);
   const auto unit = static_cast<float>(lattice.unit);
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic;
-  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id);
+  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id, set);
   frame.plan.uploads.insert(frame.plan.uploads.end(), uploads.begin(), uploads.end());
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene, lattice.middle);
   GridDensity grid;
@@ -121,9 +122,10 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
     key.add(std::string_view("network sky"));
     key.add(environment_key(*scene.environment, {}));
     key.add(lines);
+    key.add(static_cast<int>(set));
     frame.plan.uploads.push_back(
         table_upload({{sky_id}, bytes(8 * static_cast<std::size_t>(lines))}, key.value(),
-                     [environment = *scene.environment, lines] { return network_sky(environment, lines); }));
+                     [environment = *scene.environment, lines, set] { return network_sky(environment, lines, set); }));
     sky = frame.plan.uploads.back().buffer;
     frame.scatter_environment_in_fog_alone();
   }
@@ -284,6 +286,16 @@ Technique illumination_network() {
               .choices = {},
               .meaning = "in which light goes from particle to particle, both ways of half as many lines (of an odd one more)",
               .sweep = {}},
+             {.name = "direction_set",
+              .kind = Knob::Kind::choice,
+              .standard = "fibonacci",
+              .least = 0,
+              .most = 0,
+              .choices = {"fibonacci", "random"},
+              .meaning = "directions spread evenly over the sphere, or at random, always the same ones, as published; with each "
+                         "its opposite",
+              .sweep = {},
+              .baselines = {"random"}},
              {.name = "iterations",
               .kind = Knob::Kind::integer,
               .standard = "1000",
