@@ -1,10 +1,11 @@
 // airlight-network: the error of illumination-network beside the reference's random paths, by optical depth, albedo and phase
-// function, and its decay with particles and directions; what both take for the same error.
+// function, and its decay with particles and directions, evenly spread and random; what both take for the same error.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "tests/truth/network_error.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr Extent small{12, 12}, full{512, 512};
 
-constexpr NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}};
+const NetworkSize sizes[] = {{1024, 128, 32}, {4096, 64, 64}, {4096, 256, 64}, {16384, 256, 128}};
 
 void errors(int paths) {
   fmt::print(
@@ -73,17 +74,41 @@ void times(int paths) {
   }
 }
 
+// Directions spread evenly beside random ones.
+void direction_sets(int paths) {
+  fmt::print("\nDepth 4, albedo 0.9, 4096 particles, 64 cells: relative RMSE in percent and mean, by directions\n{:>4} {:>10}",
+             "g", "set");
+  constexpr int directions[] = {16, 64, 256, 1024};
+  for (const int d : directions) fmt::print("{:>18}", d);
+  fmt::print("\n");
+  for (const double g : {0.0, 0.8}) {
+    const Scene scene = network_cloud(4, 0.9, g);
+    const NetworkTruth truth = network_truth(scene, small, g > 0 ? 4 * paths : paths);
+    for (const char* set : {"fibonacci", "random"}) {
+      fmt::print("{:4} {:>10}", g, set);
+      for (const int d : directions) {
+        const NetworkError e = network_error(scene, truth, {4096, d, 64, set});
+        fmt::print("{:11.2f} {:6.3f}", 100 * e.error, e.mean);
+        std::fflush(stdout);
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace airlight
 
 int main(int argc, char** argv) {
   const int paths = argc > 1 ? std::atoi(argv[1]) : 2000;
-  if (argc > 2 || paths < 2) {
-    fmt::print(stderr, "airlight-network [PATHS]: expected at least 2 paths a pixel\n");
+  const std::string part = argc > 2 ? argv[2] : "";
+  if (argc > 3 || paths < 2 || (!part.empty() && part != "errors" && part != "directions" && part != "times")) {
+    fmt::print(stderr, "airlight-network [PATHS [errors|directions|times]]: expected at least 2 paths a pixel\n");
     return 2;
   }
-  airlight::errors(paths);
-  airlight::times(paths);
+  if (part.empty() || part == "errors") airlight::errors(paths);
+  if (part.empty() || part == "directions") airlight::direction_sets(paths);
+  if (part.empty() || part == "times") airlight::times(paths);
   return 0;
 }

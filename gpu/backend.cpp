@@ -73,6 +73,7 @@ class GlBackend final : public Backend {
   std::uint64_t upload_key(Handle) const;
   HeldTexture& prepare(const Image&);
   HeldStorage& prepare(const Buffer&);
+  void refuse_large(const Algorithm&) const;
   void release_transients();
 
   std::unique_ptr<GlContext> context_;
@@ -111,6 +112,16 @@ HeldStorage& GlBackend::prepare(const Buffer& buffer) {
   return held;
 }
 
+// Throws MachineError where a storage buffer cannot be as large as one that the step makes.
+void GlBackend::refuse_large(const Algorithm& step) const {
+  const std::size_t most = runner_->storage_limit();
+  for (const Buffer& made : buffers_made_by(step)) {
+    if (made.bytes <= most) continue;
+    throw MachineError(std::string(name_of(step)) + ": takes a buffer of " + std::to_string(made.bytes >> 20U) +
+                       " MiB, this OpenGL holds at most " + std::to_string(most >> 20U));
+  }
+}
+
 void GlBackend::release_transients() {
   for (auto held = runner_->images.begin(); held != runner_->images.end();) {
     if (held->second.transient) {
@@ -132,6 +143,10 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
     return (image != runner_->images.end() && image->second.key == key) ||
            (buffer != runner_->buffers.end() && buffer->second.key == key);
   });
+
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (runs[i]) refuse_large(steps[i].what);
+  }
 
   // After which step a transient image is read no more.
   std::map<Handle, std::size_t> last_use;

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <glm/vec4.hpp>
-#include <string>
 
 #include "common/algorithms/network.h"
-#include "common/error.h"
 #include "gpu/step_runner.h"
 
 namespace airlight {
@@ -27,16 +25,6 @@ void bind_network(StepRunner& r, const Algorithm& a, NetworkKnobs knobs) {
   r.block(knobs_binding, knobs);
   r.storage(1, a.particles);
   r.storage(2, a.lines);
-}
-
-// Throws MachineError where a storage buffer cannot be that large.
-inline std::size_t network_bytes(const StepRunner& r, std::size_t bytes) {
-  if (bytes > r.storage_limit()) {
-    throw MachineError("OpenGL: the network takes " + std::to_string(bytes >> 20U) +
-                       " MiB, more than a storage buffer may have (" + std::to_string(r.storage_limit() >> 20U) +
-                       "), expected fewer particles or directions");
-  }
-  return bytes;
 }
 
 }  // namespace airlight

@@ -21,16 +21,15 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
 
   // What changed of each particle and the sum of what it sends; weights of each line's links, and what becomes of them;
   // the sky.
-  r.reserve(words_number, network_bytes(r, sizeof(float) * (2 * n + n * shape.lines + sources + 4 * directions)));
-  network_bytes(r, a.sources.bytes);
+  r.reserve(words_number, sizeof(float) * (2 * n + n * shape.lines + sources + 4 * directions));
   r.storage(0, a.links);
   r.storage(3, a.sources);
   r.bind(5, words_number);
   r.storage(6, a.first);
-  r.reserve(taken_number, network_bytes(r, 4 * sizeof(float) * n * (isotropic ? shape.lines : directions)));
+  r.reserve(taken_number, 4 * sizeof(float) * n * (isotropic ? shape.lines : directions));
   r.bind(4, taken_number);
   if (!isotropic) {
-    r.reserve(matrix_number, network_bytes(r, sizeof(float) * directions * directions));
+    r.reserve(matrix_number, sizeof(float) * directions * directions);
     r.bind(7, matrix_number);
     each("PHASES", directions * directions);
   }

@@ -7,7 +7,6 @@ namespace airlight {
 
 void run(const ParticleLight& a, StepRunner& r, const Progress& progress) {
   constexpr GLuint arriving_number = 50;  // a buffer of this step
-  network_bytes(r, a.first.bytes);
   loop_budget(a.gaussians, a.grid, a.light_steps, LightDepth::analytic, 1);
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, LightDepth::analytic);
   defines.push_back(r.lights(a.lights));
@@ -19,7 +18,7 @@ void run(const ParticleLight& a, StepRunner& r, const Progress& progress) {
   const auto particles = static_cast<std::size_t>(a.particle_count);
   const bool isotropic = a.phase.kind == PhaseKind::isotropic;
   r.storage(0, a.first);
-  r.reserve(arriving_number, network_bytes(r, sizeof(float) * particles * std::max<std::size_t>(a.lights.size(), 1)));
+  r.reserve(arriving_number, sizeof(float) * particles * std::max<std::size_t>(a.lights.size(), 1));
   r.bind(3, arriving_number);
   defines.push_back("ARRIVING");
   if (!a.lights.empty()) r.each(r.compute("gpu/particle_light.glsl", defines), particles * a.lights.size(), network_group);

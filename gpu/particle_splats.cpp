@@ -24,7 +24,7 @@ void run(const ParticleSplats& a, StepRunner& r, const Progress& progress) {
                 bin_columns(a.view.extent)};
   r.block(knobs_binding, knobs);
   r.storage(splats_binding, a.splats);
-  r.reserve(radiance_number, network_bytes(r, sizeof(glm::vec4) * particles));
+  r.reserve(radiance_number, sizeof(glm::vec4) * particles);
   r.bind(radiance_binding, radiance_number);
   r.storage(sources_binding, a.particle_sources);
   r.storage(lines_binding, a.lines);

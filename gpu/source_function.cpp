@@ -16,12 +16,11 @@ void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
                 .unit = a.unit,
                 .camera = glm::vec4(a.camera, 0)});
   const std::size_t nodes = (a.floats() - 4) / 3;
-  network_bytes(r, a.sources.bytes);
   r.storage(0, a.links);
   r.storage(3, a.particle_sources);
-  r.reserve(beams_number, network_bytes(r, 8 * sizeof(float) * std::min(chunk, shape.lines) * shape.records()));
+  r.reserve(beams_number, 8 * sizeof(float) * std::min(chunk, shape.lines) * shape.records());
   r.bind(4, beams_number);
-  r.reserve(sums_number, network_bytes(r, 4 * sizeof(float) * nodes));
+  r.reserve(sums_number, 4 * sizeof(float) * nodes);
   r.bind(5, sums_number);
   r.storage(6, a.sources);
   const float most = 0;

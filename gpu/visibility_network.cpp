@@ -8,7 +8,6 @@ namespace airlight {
 void run(const VisibilityNetwork& a, StepRunner& r, const Progress& progress) {
   constexpr GLuint scratch_number = 50;  // a buffer of this step
   const NetworkShape shape = a.shape();
-  network_bytes(r, a.links.bytes);
   loop_budget(a.gaussians, a.grid, a.samples, LightDepth::analytic, 1);  // links have as many loops as ways to a light
   const std::vector<std::string> medium = bind_medium(r, a.gaussians, a.grid, a.voxels, 1, LightDepth::analytic);
   bind_network(
@@ -17,7 +16,6 @@ void run(const VisibilityNetwork& a, StepRunner& r, const Progress& progress) {
   // Counts and what is given out of them begin with 0.
   const std::size_t pairs = shape.lines * shape.particles;
   const std::vector<std::int32_t> zeros(2 * shape.lines * shape.slots + 4 * pairs, 0);
-  network_bytes(r, sizeof(std::int32_t) * zeros.size());
   r.fill(scratch_number, std::as_bytes(std::span(zeros)));
   r.bind(3, scratch_number);
   const auto each = [&](const char* define, std::size_t items) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the scenes of many Gaussians beside this file: cumulus.json, papers/pierced_cloud.json, papers/steam.json."""
+"""Writes the scenes of many Gaussians beside this file: cumulus.json, papers/pierced_cloud.json, papers/steam.json, papers/two_suns.json."""
 import json
 import math
 import pathlib
@@ -57,6 +57,27 @@ def pierced_cloud():
         "sky_distance": 60})
 
 
+def two_suns():
+    number = random.Random(12).uniform
+    cloud = []
+    for heap in range(12):
+        angle, off = number(0, 2 * math.pi), math.sqrt(number(0, 1))
+        x, y, z, wide = 2.1 * off * math.cos(angle), number(-0.25, 0.65), 1.1 * off * math.sin(angle), number(0.45, 0.8)
+        for _ in range(20):
+            up, around = number(-0.6, 1), number(0, 2 * math.pi)
+            flat, out = wide * math.sqrt(max(0, 1 - up * up)), number(0.6, 1)
+            radius = wide * number(0.2, 0.36)
+            center = (x + out * flat * math.cos(around), y + 0.9 * out * wide * up, z + out * flat * math.sin(around))
+            cloud.append(gaussian(center, radius, number(2.2, 4) / radius, albedo=[0.99, 0.99, 0.99]))
+    write("papers/two_suns.json", "A cloud under two suns and the sky, in all orders of scattering (Szirmay-Kalos et al. 2005, figure 5).", {
+        "camera": {"position": [0, -0.6, 9], "look_at": [0.1, 0.15, 0], "vertical_fov": 24, "resolution": [640, 360]},
+        "medium": {"phase": {"type": "isotropic"}, "gaussians": cloud},
+        "lights": [{"type": "directional", "name": "left", "direction": [0.75, -0.6, -0.3], "irradiance": [5.6, 5.2, 4.5]},
+                   {"type": "directional", "name": "right", "direction": [-0.75, 0.65, -0.1], "irradiance": [3.4, 1.0, 0.25]},
+                   {"type": "environment", "radiance": [0.07, 0.14, 0.28]}],
+        "technique": {"name": "illumination-network", "directions": 128}})
+
+
 def steam():
     number = random.Random(3).uniform
     puffs = []
@@ -74,3 +95,4 @@ def steam():
 cumulus()
 pierced_cloud()
 steam()
+two_suns()

@@ -123,6 +123,8 @@ inline constexpr Tolerance tolerances[] = {
      "the peak, and the mean of the paths is known to 0.01"},
     {"network_dense", 1e-5, "of the largest value: the iteration's sums of floats against elimination in double"},
     {"network_energy", 2e-6, "relative: out against in at albedo 1, after rounds until nothing but rounding changes"},
+    {"random_direction_moments", 0.053, "absolute: four standard deviations of the mean of 512 squares of a cosine, 0.3 each"},
+    {"network_glow", 1e-5, "relative: as network_dense; links of depth 1e-9 and above 1e6 are off by less"},
     {"network_left_out", 0.15,
      "relative: of what rounds are told to leave out, of which few are known to be a geometric series yet"},
     {"network_furnace", 3e-5, "relative: three times what the rounds are told to leave out, and roundings"},

@@ -13,6 +13,7 @@
 #include "common/plan/hash.h"
 #include "common/plan/upload.h"
 #include "common/plan/voxels.h"
+#include "common/random.h"
 
 namespace airlight {
 
@@ -133,6 +134,31 @@ class ParticleSampler {
   std::size_t next_ = 0;
 };
 
+// Even over the sphere (Marsaglia 1972): of a point in the unit disc, so that it takes no function of the C library but sqrt.
+std::vector<glm::dvec3> random_directions(int count) {
+  std::vector<glm::dvec3> directions;
+  for (int l = 0; l < count; ++l) {
+    Random random({0x6E657477, 0x6F726B73}, static_cast<std::uint64_t>(l));
+    double x = 1, y = 1;
+    while (x * x + y * y >= 1) x = 2 * random.next() - 1, y = 2 * random.next() - 1;
+    const double squared = x * x + y * y, scale = 2 * std::sqrt(1 - squared);
+    directions.emplace_back(scale * x, scale * y, 1 - 2 * squared);
+  }
+  return directions;
+}
+
+// Number of a place along Morton's curve, which keeps neighbours together.
+std::uint64_t along_curve(const glm::ivec3& place) {
+  std::uint64_t number = 0;
+  for (unsigned bit = 0; bit < 14; ++bit) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto on_axis = static_cast<std::uint64_t>(place[axis] + lattice_side);
+      number |= (on_axis >> bit & 1U) << (3 * bit + static_cast<unsigned>(axis));
+    }
+  }
+  return number;
+}
+
 // A vector of the lattice.
 glm::ivec3 rounded(const glm::dvec3& v) { return glm::ivec3(glm::floor(v * static_cast<double>(lattice_length) + 0.5)); }
 
@@ -149,9 +175,13 @@ double network_mass(const Scene& scene, const NetworkFrame& frame) { return Part
 std::vector<float> network_particles(const Scene& scene, const NetworkFrame& frame, int count) {
   const auto n = static_cast<std::size_t>(count);
   ParticleSampler sampler(scene, frame);
+  std::vector<glm::ivec3> places(n);
+  for (std::size_t k = 0; k < n; ++k) places[k] = sampler.place(k, n);
+  std::sort(places.begin(), places.end(),
+            [](const glm::ivec3& a, const glm::ivec3& b) { return along_curve(a) < along_curve(b); });
   std::vector<float> planes(particle_planes * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const glm::ivec3 place = sampler.place(k, n);
+    const glm::ivec3& place = places[k];
     const Mixture m = sampler.mixture(place);
     const double scale = m.extinction > 0 ? 1 / m.extinction : 0;
     planes[particle_extinction * n + k] = static_cast<float>(m.extinction);
@@ -165,7 +195,8 @@ std::vector<float> network_particles(const Scene& scene, const NetworkFrame& fra
   return planes;
 }
 
-std::vector<glm::dvec3> network_directions(int count) {
+std::vector<glm::dvec3> network_directions(int count, DirectionSet set) {
+  if (set == DirectionSet::random) return random_directions(count);
   // Cosine and sine of the golden angle: turned on by it, without a cosine that the C library could round differently.
   constexpr double turn_c = -0.7373688780783197, turn_s = 0.6754902942615238;
   std::vector<glm::dvec3> directions;
@@ -180,10 +211,10 @@ std::vector<glm::dvec3> network_directions(int count) {
   return directions;
 }
 
-std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window) {
+std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window, DirectionSet set) {
   const std::size_t n = particles.size() / particle_planes;
   std::vector<std::int32_t> lines(line_fields * static_cast<std::size_t>(count), 0);
-  const std::vector<glm::dvec3> directions = network_directions(count);
+  const std::vector<glm::dvec3> directions = network_directions(count, set);
   for (int l = 0; l < count; ++l) {
     const glm::dvec3& direction = directions[static_cast<std::size_t>(l)];
     const glm::dvec3 up = std::fabs(direction.y) < 0.95 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
@@ -216,7 +247,7 @@ std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int
 }
 
 std::vector<Plan::Upload> network_uploads(const Scene& scene, const MediumBox& box, int particles, int lines, int window,
-                                          std::uint32_t first_id) {
+                                          std::uint32_t first_id, DirectionSet set) {
   const NetworkFrame frame = network_frame(box);
   Hash key;
   key.add(std::string_view("network"));
@@ -247,8 +278,9 @@ std::vector<Plan::Upload> network_uploads(const Scene& scene, const MediumBox& b
                      [sampled, bytes_of] { return bytes_of(sampled()); }});
   key.add(lines);
   key.add(window);
+  key.add(static_cast<int>(set));
   uploads.push_back({Buffer{{first_id + 1}, sizeof(std::int32_t) * line_fields * static_cast<std::size_t>(lines)}, key.value(),
-                     [sampled, bytes_of, lines, window] { return bytes_of(network_lines(sampled(), lines, window)); }});
+                     [sampled, bytes_of, lines, window, set] { return bytes_of(network_lines(sampled(), lines, window, set)); }});
   return uploads;
 }
 

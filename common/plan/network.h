@@ -24,22 +24,27 @@ NetworkFrame network_frame(const MediumBox&);
 double network_mass(const Scene&, const NetworkFrame&);
 
 // `count` particles of the scene's Gaussians and grid, as common/algorithms/network.h lays them out: proportional to extinction,
-// by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones.
+// by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones. They stand along
+// Morton's curve: of 100000 particles those of one list lie near each other in memory, which makes a round 1.5 times as fast.
 std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count);
 
-// Directions of `count` bundles of lines, which are evenly spread over the sphere with the opposite ones: spherical Fibonacci
-// points on half of it.
-std::vector<glm::dvec3> network_directions(int count);
+// Directions of `count` bundles of lines, along which light goes both ways: a direction and its opposite are always taken
+// together. Spherical Fibonacci points on half of the sphere, evenly spread with the opposite ones; or at random, as published,
+// always the same ones, of which more begin with fewer.
+enum class DirectionSet : int { fibonacci, random };
+std::vector<glm::dvec3> network_directions(int count, DirectionSet = DirectionSet::fibonacci);
 
 // The bundles, each with a window of window^2 pixels at most about the particles.
-std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window);
+std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window,
+                                        DirectionSet = DirectionSet::fibonacci);
 
 // What comes of an environment along each bundle [W/m^2/sr], rgb and an unused float, that which goes along the lines first: the
-// mean over the directions that are nearest to it, so that all of the environment comes, suns included.
-std::vector<float> network_sky(const Environment&, int line_count);
+// mean over the directions that are nearest to it, so that all of the environment comes, suns included. One of the random set
+// that is so near to another that no cell of the sky is nearest to it has what is at itself.
+std::vector<float> network_sky(const Environment&, int line_count, DirectionSet = DirectionSet::fibonacci);
 
 // Both as uploads under two handles from `first_id` on.
 std::vector<Plan::Upload> network_uploads(const Scene&, const MediumBox&, int particles, int lines, int window,
-                                          std::uint32_t first_id);
+                                          std::uint32_t first_id, DirectionSet = DirectionSet::fibonacci);
 
 }  // namespace airlight

@@ -40,31 +40,43 @@ std::vector<Cell> cells_of(const Environment& e) {
 
 }  // namespace
 
-std::vector<float> network_sky(const Environment& e, int line_count) {
-  const std::vector<glm::dvec3> directions = network_directions(line_count);
+std::vector<float> network_sky(const Environment& e, int line_count, DirectionSet set) {
+  const std::vector<glm::dvec3> directions = network_directions(line_count, set);
   const std::vector<Cell> cells = cells_of(e);
   const double turn = e.rotation / 360 - std::floor(e.rotation / 360);
+  const auto each_cell = [&](auto&& body) {
+    for (int row = 0; row < rows; ++row) {
+      const double polar = pi * (row + 0.5) / rows;
+      for (int column = 0; column < columns; ++column) {
+        const double azimuth = 2 * pi * ((column + 0.5) / columns - 0.5 - turn);
+        body(cells[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)],
+             glm::dvec3(std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)));
+      }
+    }
+  };
   std::vector<Cell> nearest(2 * directions.size());
   glm::dvec3 all(0);
-  for (int row = 0; row < rows; ++row) {
-    const double polar = pi * (row + 0.5) / rows;
-    for (int column = 0; column < columns; ++column) {
-      const Cell& cell = cells[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
-      const double azimuth = 2 * pi * ((column + 0.5) / columns - 0.5 - turn);
-      const glm::dvec3 from(std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth));
-      std::size_t best = 0;
-      double most = 0;
-      for (std::size_t l = 0; l < directions.size(); ++l) {
-        const double cosine = glm::dot(from, directions[l]);
-        if (std::fabs(cosine) <= std::fabs(most)) continue;
-        most = cosine;
-        best = l;
-      }
-      Cell& to = nearest[2 * best + (most < 0 ? 0 : 1)];  // what comes from there goes the other way
-      to.power += cell.power;
-      to.angle += cell.angle;
-      all += cell.power;
+  each_cell([&](const Cell& cell, const glm::dvec3& from) {
+    std::size_t best = 0;
+    double most = 0;
+    for (std::size_t l = 0; l < directions.size(); ++l) {
+      const double cosine = glm::dot(from, directions[l]);
+      if (std::fabs(cosine) <= std::fabs(most)) continue;
+      most = cosine;
+      best = l;
     }
+    Cell& to = nearest[2 * best + (most < 0 ? 0 : 1)];  // what comes from there goes the other way
+    to.power += cell.power;
+    to.angle += cell.angle;
+    all += cell.power;
+  });
+  for (std::size_t d = 0; d < nearest.size(); ++d) {
+    if (nearest[d].angle > 0) continue;
+    double most = -2;
+    each_cell([&](const Cell& cell, const glm::dvec3& from) {
+      const double cosine = glm::dot(from, directions[d / 2]) * (d % 2 == 0 ? -1 : 1);
+      if (cosine > most) most = cosine, nearest[d] = cell;
+    });
   }
   // Directions stand for equal angles in the network, but the cells nearest to each are of nearly equal ones.
   glm::dvec3 sum(0);

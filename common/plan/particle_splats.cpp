@@ -171,6 +171,7 @@ void add_particle_splats(FramePlan& frame, const NetworkIteration& network, cons
                                              .phase = network.phase,
                                              .particle_count = network.particle_count,
                                              .line_count = network.line_count,
+                                             .random_directions = frame.request.knobs.choice("direction_set") == "random",
                                              .extinction = frame.extinction,
                                              .sky_distance = frame.sky_distance,
                                              .ambient = scattered ? glm::vec3(0) : frame.ambient,

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "common/progress.h"
+#include "common/random.h"
 #include "common/reference/environment.h"
 #include "common/reference/line.h"
-#include "common/reference/random.h"
 #include "common/reference/visibility.h"
 
 namespace airlight {

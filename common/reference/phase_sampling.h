@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "common/algorithms/view.h"
-#include "common/reference/random.h"
+#include "common/random.h"
 
 namespace airlight {
 

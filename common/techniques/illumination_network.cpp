@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "common/error.h"
 #include "common/plan/environment.h"
 #include "common/plan/frame.h"
 #include "common/plan/hash.h"
@@ -56,6 +57,16 @@ enum : std::uint32_t {
   splats_id = samples_id + sampled_airlight_ids
 };
 
+// Throws InputError where the steps would hand on more than 2 GiB, of which the CPU takes about three times as much in all; then
+// every index fits 32 bits, too.
+void refuse_size(int particles, std::size_t directions, std::size_t floats) {
+  constexpr std::size_t most_floats = std::size_t{1} << 29U;
+  if (floats > most_floats)
+    throw InputError("setting particles: the network of " + std::to_string(particles) + " particles and " +
+                     std::to_string(directions) + " directions would take " + std::to_string(floats >> 18U) +
+                     " MiB, expected at most " + std::to_string(most_floats >> 18U));
+}
+
 bool splatted(const KnobValues& knobs) { return knobs.choice("image") == "splats"; }
 
 // The steps before the view ray, and what RayMarch reads of them.
@@ -75,11 +86,12 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
   const int particles = static_cast<int>(knobs.number("particles"));
   const int lines = (static_cast<int>(knobs.number("directions")) + 1) / 2, window = window_of(particles);
   const int iterations = static_cast<int>(knobs.number("iterations"));
+  const DirectionSet set = knobs.choice("direction_set") == "random" ? DirectionSet::random : DirectionSet::fibonacci;
   const MediumBox box = medium_box(scene, static_cast<int>(knobs.number("resolution")));
   const NetworkFrame lattice = network_frame(box);
   const auto unit = static_cast<float>(lattice.unit);
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic;
-  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id);
+  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id, set);
   frame.plan.uploads.insert(frame.plan.uploads.end(), uploads.begin(), uploads.end());
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene, lattice.middle);
   GridDensity grid;
@@ -97,6 +109,9 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
                             .unit = unit,
                             .extinction = frame.extinction,
                             .links = {}};
+  const std::size_t directions = 2 * static_cast<std::size_t>(lines);
+  const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
+  refuse_size(particles, directions, network.shape().links() + 2 * values);
   network.links = {{links_id}, bytes(network.shape().links())};
   frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
@@ -107,14 +122,14 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels) {
     key.add(std::string_view("network sky"));
     key.add(environment_key(*scene.environment, {}));
     key.add(lines);
+    key.add(static_cast<int>(set));
     frame.plan.uploads.push_back(
         table_upload({{sky_id}, bytes(8 * static_cast<std::size_t>(lines))}, key.value(),
-                     [environment = *scene.environment, lines] { return network_sky(environment, lines); }));
+                     [environment = *scene.environment, lines, set] { return network_sky(environment, lines, set); }));
     sky = frame.plan.uploads.back().buffer;
     frame.scatter_environment_in_fog_alone();
   }
 
-  const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : 2 * static_cast<std::size_t>(lines));
   ParticleLight light{.particles = network.particles,
                       .lines = network.lines,
                       .voxels = voxels,
@@ -259,7 +274,7 @@ Technique illumination_network() {
               .kind = Knob::Kind::integer,
               .standard = "4096",
               .least = 1,
-              .most = 16384,
+              .most = 100000,
               .choices = {},
               .meaning = "how many stand for the medium",
               .sweep = {}},
@@ -271,6 +286,16 @@ Technique illumination_network() {
               .choices = {},
               .meaning = "in which light goes from particle to particle, both ways of half as many lines (of an odd one more)",
               .sweep = {}},
+             {.name = "direction_set",
+              .kind = Knob::Kind::choice,
+              .standard = "fibonacci",
+              .least = 0,
+              .most = 0,
+              .choices = {"fibonacci", "random"},
+              .meaning = "directions spread evenly over the sphere, or at random, always the same ones, as published; with each "
+                         "its opposite",
+              .sweep = {},
+              .baselines = {"random"}},
              {.name = "iterations",
               .kind = Knob::Kind::integer,
               .standard = "1000",

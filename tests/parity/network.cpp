@@ -6,7 +6,6 @@
 #include <span>
 
 #include "common/plan/geometry.h"
-#include "common/plan/network.h"
 #include "common/plan/voxels.h"
 #include "tests/parity/inputs.h"
 
@@ -48,7 +47,7 @@ TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSou
   const MediumBox box = medium_box(scene, 12);
   const NetworkFrame frame = network_frame(box);
   TestNetwork t;
-  for (const Plan::Upload& upload : network_uploads(scene, box, parts.particles, parts.lines, parts.window, 1))
+  for (const Plan::Upload& upload : network_uploads(scene, box, parts.particles, parts.lines, parts.window, 1, parts.set))
     c.buffers.emplace_back(upload.buffer, upload.make());
   const auto floats = [](std::uint32_t id, std::size_t n) { return Buffer{{id}, sizeof(float) * n}; };
   VisibilityNetwork& n = t.network;
@@ -83,7 +82,7 @@ TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSou
   i.residuals = floats(7, 1 + static_cast<std::size_t>(parts.iterations));
 
   if (scene.environment) {
-    const std::vector<float> sky = network_sky(*scene.environment, parts.lines);
+    const std::vector<float> sky = network_sky(*scene.environment, parts.lines, parts.set);
     const auto sky_bytes = std::as_bytes(std::span(sky));
     i.sky = floats(9, sky.size());
     c.buffers.emplace_back(i.sky, std::vector<std::byte>(sky_bytes.begin(), sky_bytes.end()));

@@ -1,6 +1,7 @@
 // Illumination networks for the parity cases and the tests of their steps.
 #pragma once
 
+#include "common/plan/network.h"
 #include "tests/parity/medium.h"
 
 namespace airlight {
@@ -18,6 +19,7 @@ struct NetworkParts {
   float extinction = 0.1F;
   float tolerance = 1e-6F;
   int iterations = 300;
+  DirectionSet set = DirectionSet::fibonacci;
 };
 
 // All four steps for the scene's medium under these lights and its environment; their inputs become buffers 1 to 3 and 9 of the

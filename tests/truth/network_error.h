@@ -77,6 +77,7 @@ struct NetworkError {
 
 struct NetworkSize {
   int particles = 0, directions = 0, resolution = 0;  // none: the technique's own
+  std::string set = "fibonacci";
 };
 
 inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
@@ -85,7 +86,8 @@ inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
   if (size.particles > 0) {
     settings.knobs = {{"particles", std::to_string(size.particles)},
                       {"directions", std::to_string(size.directions)},
-                      {"resolution", std::to_string(size.resolution)}};
+                      {"resolution", std::to_string(size.resolution)},
+                      {"direction_set", size.set}};
   }
   settings.resolution = extent;
   return settings;

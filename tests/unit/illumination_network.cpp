@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <set>
 
+#include "common/algorithms/particle_splats.h"
 #include "common/plan/network.h"
 #include "tests/tolerances.h"
 #include "tests/unit/network_ran.h"
@@ -162,10 +165,16 @@ TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
 }
 
 // At albedo 1, what leaves all lines is what the first sources put into them.
-void out_is_in(const Phase& phase) {
-  const RanNetwork ran(
-      two_gaussians(1), network_lights(),
-      {.particles = 200, .lines = 10, .window = 5, .phase = phase, .extinction = 0, .tolerance = 0, .iterations = 400});
+void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, const Scene& scene = two_gaussians(1)) {
+  const RanNetwork ran(scene, network_lights(),
+                       {.particles = 200,
+                        .lines = 10,
+                        .window = 5,
+                        .phase = phase,
+                        .extinction = 0,
+                        .tolerance = 0,
+                        .iterations = 400,
+                        .set = set});
   const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
   const bool isotropic = phase.kind == PhaseKind::isotropic;
   const auto value = [&](std::size_t d, std::size_t v) { return 4 * ((isotropic ? 0 : d * n) + v); };
@@ -191,10 +200,70 @@ void out_is_in(const Phase& phase) {
 
 TEST(IlluminationNetwork, WhatGoesInComesOut) { out_is_in({}); }
 TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::henyey_greenstein, 0.7}); }
+TEST(IlluminationNetwork, WhatGoesInComesOutAtRandom) { out_is_in({PhaseKind::henyey_greenstein, 0.7}, DirectionSet::random); }
+
+// A Gaussian smaller than the lattice's cells within another: its particles, most of all, stand on each other.
+TEST(IlluminationNetwork, WhatGoesInComesOutOfCoincidentParticles) {
+  Scene scene = two_gaussians(1);
+  Gaussian& small = scene.medium.gaussians[1];
+  small.center = scene.medium.gaussians[0].center, small.radius = 1e-4, small.extinction = 1e12;
+  const std::vector<float> planes = network_particles(scene, network_frame(medium_box(scene, 12)), 200);
+  std::set<std::array<float, 3>> places;
+  for (std::size_t v = 0; v < 200; ++v) places.insert({planes[v], planes[200 + v], planes[400 + v]});
+  EXPECT_LT(places.size(), 100U);
+  out_is_in({}, DirectionSet::fibonacci, scene);
+}
+
+// What glows by itself: where light meets nothing else it is all; where nothing gets through, all orders of it are there.
+TEST(IlluminationNetwork, ThinAndOpaqueMediaGlow) {
+  constexpr double albedo = 0.5;
+  for (const double times : {1e-9, 1e9}) {
+    Scene scene = two_gaussians(albedo);
+    for (Gaussian& g : scene.medium.gaussians) g.extinction *= times, g.emission = glm::dvec3(g.extinction);
+    const RanNetwork ran(scene, {}, {.particles = 100, .lines = 8, .window = 4, .extinction = 0, .tolerance = 1e-7F});
+    const double expected = times < 1 ? 1 : 1 / (1 - albedo);
+    double worst = 0;
+    for (std::size_t v = 0; v < ran.shape.particles; ++v)
+      worst = std::max(worst, std::fabs(static_cast<double>(ran.sources[4 * v]) / expected - 1));
+    std::printf("extinction times %g: off by %g\n", times, worst);
+    EXPECT_LE(worst, tolerance("network_glow"));
+  }
+}
+
+// Random directions: unit vectors, even over all axes, the same however many there are, none so far apart that a splat's way to
+// the camera has none within reach.
+TEST(IlluminationNetwork, RandomDirectionsAreEven) {
+  constexpr int most = 512;
+  const std::vector<glm::dvec3> all = network_directions(most, DirectionSet::random), ways = network_directions(2000);
+  glm::dmat3 squares(0);
+  for (const glm::dvec3& d : all) {
+    EXPECT_NEAR(glm::length(d), 1, 1e-12);
+    squares += glm::outerProduct(d, d) / static_cast<double>(most);
+  }
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) worst = std::max(worst, std::fabs(squares[i][j] - (i == j ? 1.0 / 3 : 0.0)));
+  }
+  std::printf("second moments off by %g\n", worst);
+  EXPECT_LE(worst, tolerance("random_direction_moments"));
+  for (const int count : {1, 2, 4, 8, 32, 128, most}) {
+    const std::vector<glm::dvec3> some = network_directions(count, DirectionSet::random);
+    EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
+    ParticleSplats splats;
+    splats.line_count = count, splats.random_directions = true, splats.phase = {PhaseKind::henyey_greenstein, 0.5};
+    double farthest = 0;
+    for (const glm::dvec3& way : ways) {
+      double nearest = 2;
+      for (const glm::dvec3& d : some) nearest = std::min({nearest, glm::length(way - d), glm::length(way + d)});
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, 1 / static_cast<double>(splats.inverse_reach())) << count;
+  }
+}
 
 // Each particle once a line, in order, in the pixel where it is; the links of a list add up to the whole line through its pixel.
-TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
-  const RanNetwork ran(two_gaussians(1), {}, {.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F});
+void links_are_lines(const NetworkParts& parts) {
+  const RanNetwork ran(two_gaussians(1), {}, parts);
   double worst = 0, worst_other = 0;
   for (std::size_t line = 0; line < ran.shape.lines; ++line) {
     std::set<std::size_t> seen;
@@ -243,6 +312,11 @@ TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
   std::printf("depth of a line off by %g, shares of a link by %g\n", worst, worst_other);
   EXPECT_LE(worst, tolerance("network_line_depth"));
   EXPECT_LE(worst_other, tolerance("link_shares"));
+}
+
+TEST(IlluminationNetwork, LinksAreTheLineThroughThePixel) {
+  links_are_lines({.particles = 300, .lines = 9, .window = 6, .extinction = 0.3F, .iterations = 1});
+  links_are_lines({.particles = 100000, .lines = 1, .window = 46, .extinction = 0.3F, .iterations = 1});
 }
 
 // Means and second moments of the particles about each Gaussian, and how many each has.

@@ -60,6 +60,28 @@ TEST(IlluminationNetwork, RefusesWhatHasNoParticles) {
   EXPECT_NE(why->find("neither"), std::string::npos) << *why;
 }
 
+// What does not fit is told before a step runs, in a line that names it.
+template <class Error>
+void refuses_size(const std::string& backend, const std::string& directions, const Phase& phase, const std::string& message) {
+  Scene scene = two_gaussians(0.8);
+  scene.medium.phase = phase;
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  settings.knobs = {{"particles", "100000"}, {"directions", directions}};
+  try {
+    Renderer({.backend = backend, .gl_context = "osmesa"}).render(scene, settings);
+    ADD_FAILURE() << "it rendered";
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).substr(0, message.size()), message);
+  }
+}
+
+TEST(IlluminationNetwork, RefusesWhatIsTooLarge) {
+  refuses_size<InputError>("cpu", "1024", {PhaseKind::henyey_greenstein, 0.5},
+                           "setting particles: the network of 100000 particles and 1024 directions would take 4126 MiB, ");
+  refuses_size<MachineError>("gl", "256", {}, "visibility_network: takes a buffer of 250 MiB, ");
+}
+
 }  // namespace
 
 }  // namespace airlight

@@ -20,11 +20,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // Where the same comes from everywhere and nothing is absorbed, every source and everything that arrives is that.
-void in_a_furnace(const Phase& phase) {
+void in_a_furnace(const Phase& phase, DirectionSet set = DirectionSet::fibonacci) {
   Scene scene = two_gaussians(1);
   scene.environment = Environment{.image = nullptr, .radiance = {1, 2, 0.5}};
-  const RanNetwork ran(scene, {},
-                       {.particles = 200, .lines = 20, .window = 5, .phase = phase, .extinction = 0, .tolerance = 1e-5F}, true);
+  const NetworkParts parts{
+      .particles = 200, .lines = 20, .window = 5, .phase = phase, .extinction = 0, .tolerance = 1e-5F, .set = set};
+  const RanNetwork ran(scene, {}, parts, true);
   double sources = 0, field = 0;
   for (std::size_t i = 0; i < ran.sources.size(); ++i) {
     if (i % 4 < 3)
@@ -47,6 +48,20 @@ void in_a_furnace(const Phase& phase) {
 
 TEST(NetworkSky, AFurnaceIsAllThatIsSeen) { in_a_furnace({}); }
 TEST(NetworkSky, AFurnaceIsAllThatIsSeenForward) { in_a_furnace({PhaseKind::henyey_greenstein, 0.7}); }
+TEST(NetworkSky, AFurnaceIsAllThatIsSeenAtRandom) { in_a_furnace({}, DirectionSet::random); }
+
+// Of random directions some lie so near to each other that nothing is left for one of them.
+TEST(NetworkSky, EvenSkyComesFromEveryRandomDirection) {
+  const Environment environment{.image = nullptr, .radiance = {1, 2, 0.5}};
+  const std::vector<float> sky = network_sky(environment, 512, DirectionSet::random);
+  float off = 0;
+  for (std::size_t i = 0; i < sky.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c)
+      off = std::max(off, std::fabs(sky[i + c] / static_cast<float>(environment.radiance[static_cast<int>(c)]) - 1));
+  }
+  std::printf("off by %g\n", static_cast<double>(off));
+  EXPECT_FALSE(!(off <= 1e-6F));
+}
 
 // All of the environment comes, from where it is.
 TEST(NetworkSky, DirectionsShareAllOfIt) {
