@@ -4,6 +4,9 @@
 //   airlight::Frame frame = renderer.render(airlight::load_scene("fog.json"), {});
 //   airlight::write_image("fog.exr", frame.image("beauty"), {});
 //
+//   airlight::SceneFile file("lamp_in_fog.json");  // an animation
+//   frame = renderer.render(file.scene(12, progress), {});
+//
 // Nothing here prints, exits or keeps global state: renderers in different threads are independent. Errors are thrown
 // (common/error.h) and leave every object usable. The caller's floating-point mode and GL context are restored.
 #pragma once
@@ -80,6 +83,9 @@ std::string_view version();
 // Settings whose goal is replaced by the technique and knobs that are expected to meet it (common/techniques/choose.h), and what
 // is expected, one line; empty without a goal. Throws InputError where nothing is expected to. Renderer::render() does the same.
 std::pair<RenderSettings, std::string> chosen_for_goal(const Scene&, const RenderSettings&, const RendererOptions&);
+
+// Technique and knobs of the frame that would be rendered; no images, no device. Throws InputError as rendering would.
+Frame planned_frame(const Scene&, const RenderSettings&);
 
 // What would run, what is skipped and why; many lines, ends with a newline.
 std::string explain(const Scene&, const RenderSettings&);

@@ -16,6 +16,8 @@ struct RenderCommand {
   RendererOptions renderer;
   RenderSettings settings;
   std::vector<std::string> aovs;
+  std::string frames;   // "12", "0-47", "0-47x4" (every fourth), "all"; empty: the first, and names are taken as they are
+  bool resume = false;  // keep the frames that are there
   ImageFileOptions file;
   std::string stats_file;  // empty: none
   bool stats = false;
@@ -32,6 +34,7 @@ struct CompareCommand {
 };
 int compare(const CompareCommand&);
 
-int info();
+// Of the machine; of a scene file, unless its name is empty.
+int info(const std::string& scene);
 
 }  // namespace airlight

@@ -57,6 +57,7 @@ constexpr const char* render_examples = R"(Examples
   airlight render fog.json -o fog.png --supersample 3 --tonemap reinhard
   airlight render smoke.json -o smoke.exr --error 1%
   airlight render fog.json -o fog.exr --simd scalar --threads 1 --set table_nodes=128
+  airlight render lamp.json --frames 0-47 -o lamp.####.exr --resume
 EXR files hold every image asked for, in channels NAME.R ...; other formats get one file an image.
 )";
 
@@ -64,7 +65,7 @@ EXR files hold every image asked for, in channels NAME.R ...; other formats get 
 struct Flags {
   RenderCommand render;
   CompareCommand compare;
-  std::string resolution, log_level = "warning";
+  std::string resolution, log_level = "warning", info_scene;
   std::vector<std::string> settings;
   std::optional<std::string> error, budget;
   bool quiet = false;
@@ -95,6 +96,9 @@ void add_render_flags(CLI::App& command, Flags& f) {
   RenderCommand& r = f.render;
   command.add_option("-o,--output", r.output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")
       ->required();
+  command.add_option("--frames", r.frames,
+                     "of an animation: 12, 0-47, 0-47x4 (every fourth) or all; #### in names of outputs is the frame's number");
+  command.add_flag("--resume", r.resume, "keep the frames that are there, whole and of this scene and these settings");
   command.add_option("--backend", r.renderer.backend, "cpu | gl")->capture_default_str();
   command.add_option("--threads", r.renderer.threads, "threads of the CPU, 0: as many as there are")
       ->check(CLI::Range(0, 1024))
@@ -131,7 +135,7 @@ LogLevel level_of(const Flags& f) {
 // Names of the design that this version does not have: better an answer than "unknown".
 void refuse_later_versions(int argc, char** argv) {
   constexpr std::array<std::string_view, 6> commands{"view", "edit", "fit", "convert", "plan", "merge"};
-  constexpr std::array<std::string_view, 2> flags{"--frames", "--seed"};
+  constexpr std::array<std::string_view, 1> flags{"--seed"};
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
     const bool command = i == 1 && std::find(commands.begin(), commands.end(), word) != commands.end();
@@ -165,6 +169,7 @@ int run(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
+  info_command->add_option("SCENE", f.info_scene, "print what is in a scene instead, and how many frames it has");
 
   try {
     program.parse(argc, argv);
@@ -182,7 +187,7 @@ int run(int argc, char** argv) {
   if (*render_command) return render(f.render, terminal);
   if (*explain_command) return explain(f.render, terminal);
   if (*compare_command) return compare(f.compare);
-  if (*info_command) return info();
+  if (*info_command) return info(f.info_scene);
   return 2;
 }
 

@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <tuple>
 
 #include "app/command.h"
+#include "app/sequence.h"
 #include "common/scene/temporary_file.h"
 
 namespace airlight {
@@ -83,6 +85,93 @@ std::vector<std::pair<std::string, std::string>> metadata(const Scene& scene, co
   return all;
 }
 
+// A line instead, of one of many frames.
+void print_frame_stats(int number, const Frame& frame, const Times& times) {
+  const auto reused =
+      std::count_if(frame.stats.steps.begin(), frame.stats.steps.end(), [](const StepStats& s) { return s.reused; });
+  fmt::print("frame {}: load {:.3f} s, render {:.3f} s, write {:.3f} s, {} steps run, {} reused\n", number, times.load,
+             times.render, times.write, static_cast<std::ptrdiff_t>(frame.stats.steps.size()) - reused, reused);
+}
+
+// Renders the frames of a command, one after the other.
+class Sequence {
+ public:
+  Sequence(const RenderCommand& c, Terminal& terminal)
+      : c_(c), terminal_(terminal), file_(c.scene), frames_(frames_of(c, file_)), progress_(terminal, frames_.size()) {}
+
+  void render(const RenderSettings& settings) {
+    for (const int frame : frames_) {
+      progress_.begin(frame);
+      progress_.end(render_frame(frame, settings));
+    }
+  }
+
+ private:
+  // Whether it had to be rendered.
+  bool render_frame(int number, RenderSettings settings) {
+    Times times;
+    const Clock::time_point start = Clock::now();
+    const Scene scene = file_.scene(number, progress_);
+    const Clock::time_point loaded = Clock::now();
+    times.load = seconds_between(start, loaded);
+    terminal_.log(LogLevel::debug, fmt::format("{}: loaded in {:.3f} s, {}", c_.scene, times.load, scene.hash));
+    std::string chosen;
+    std::tie(settings, chosen) = chosen_for_goal(scene, settings, c_.renderer);
+    if (!chosen.empty()) chosen += "\n";
+    tell(c_.quiet ? "" : chosen, chosen_);
+    const std::string plan = explain(scene, settings);
+    tell(c_.explain ? plan : "", plan_);
+    terminal_.log(LogLevel::debug, plan);
+
+    const std::string output = output_name(c_, c_.output, number);
+    ImageFileOptions file = c_.file;
+    if (c_.resume) {
+      file.metadata = metadata(scene, planned_frame(scene, settings), c_);
+      const Extent extent = settings.resolution.value_or(scene.camera.resolution);
+      if (is_there(output, settings.images, extent, file, terminal_)) {
+        if (c_.stats) fmt::print("frame {}: kept\n", number);
+        return false;
+      }
+    }
+    if (!renderer_) renderer_.emplace(c_.renderer);
+    const Frame frame = renderer_->render(scene, settings, progress_);
+    const Clock::time_point rendered = Clock::now();
+    times.render = seconds_between(loaded, rendered);
+
+    file.metadata = metadata(scene, frame, c_);
+    const std::vector<std::string> names = write_images(output, frame.images, file);
+    times.write = seconds_between(rendered, Clock::now());
+    for (const std::string& name : names) {
+      terminal_.log(LogLevel::info,
+                    fmt::format("{}: {} by {} on {}, {:.3f} s", name, c_.scene, frame.technique, frame.device, times.render));
+    }
+    if (c_.stats && frames_.size() == 1) print_stats(frame, times);
+    if (c_.stats && frames_.size() > 1) print_frame_stats(number, frame, times);
+    if (!c_.stats_file.empty()) {
+      const std::string text = stats_json(frame, times, scene.hash);
+      TemporaryFile stats(output_name(c_, c_.stats_file, number));
+      stats.write(text.data(), text.size());
+      stats.rename_to_target();
+    }
+    return true;
+  }
+
+  // On standard output, where the last frame had something else to tell.
+  static void tell(const std::string& text, std::string& last) {
+    if (text == last) return;
+    fmt::print("{}", text);
+    last = text;
+  }
+
+  const RenderCommand& c_;
+  Terminal& terminal_;
+  SceneFile file_;
+  std::vector<int> frames_;
+  SequenceProgress progress_;
+  std::optional<Renderer> renderer_;  // made for the first frame that is not there; runs what the next one has not in common
+  std::string chosen_, plan_;
+};
+
 }  // namespace
 
 int render(const RenderCommand& c, Terminal& terminal) {
@@ -92,39 +181,7 @@ int render(const RenderCommand& c, Terminal& terminal) {
     if (std::find(settings.images.begin(), settings.images.end(), name) == settings.images.end()) settings.images.push_back(name);
   }
   check_image_path(c.output, c.file);
-  Times times;
-  const Clock::time_point start = Clock::now();
-  const Scene scene = load_scene(c.scene, terminal);
-  const Clock::time_point loaded = Clock::now();
-  times.load = seconds_between(start, loaded);
-  terminal.log(LogLevel::debug, fmt::format("{}: loaded in {:.3f} s, {}", c.scene, times.load, scene.hash));
-  std::string chosen;
-  std::tie(settings, chosen) = chosen_for_goal(scene, settings, c.renderer);
-  if (!chosen.empty() && !c.quiet) fmt::print("{}\n", chosen);
-  const std::string plan = explain(scene, settings);
-  if (c.explain) fmt::print("{}", plan);
-  terminal.log(LogLevel::debug, plan);
-
-  Renderer renderer(c.renderer);
-  const Frame frame = renderer.render(scene, settings, terminal);
-  const Clock::time_point rendered = Clock::now();
-  times.render = seconds_between(loaded, rendered);
-
-  ImageFileOptions file = c.file;
-  file.metadata = metadata(scene, frame, c);
-  const std::vector<std::string> names = write_images(c.output, frame.images, file);
-  times.write = seconds_between(rendered, Clock::now());
-  for (const std::string& name : names) {
-    terminal.log(LogLevel::info,
-                 fmt::format("{}: {} by {} on {}, {:.3f} s", name, c.scene, frame.technique, frame.device, times.render));
-  }
-  if (c.stats) print_stats(frame, times);
-  if (!c.stats_file.empty()) {
-    const std::string text = stats_json(frame, times, scene.hash);
-    TemporaryFile stats(c.stats_file);
-    stats.write(text.data(), text.size());
-    stats.rename_to_target();
-  }
+  Sequence(c, terminal).render(settings);
   return 0;
 }
 

@@ -277,6 +277,15 @@ std::string tiles_without_planes(const Plan& plan) {
 
 }  // namespace
 
+Frame planned_frame(const Scene& scene, const RenderSettings& asked) {
+  const RenderSettings settings = chosen_for_goal(scene, asked, {}).first;
+  const Technique& technique = chosen_technique(scene, settings);
+  Frame frame;
+  frame.technique = technique.name;
+  frame.knobs = request_for(technique, scene, settings).knobs.all();
+  return frame;
+}
+
 std::string explain(const Scene& scene, const RenderSettings& asked) {
   const auto [settings, chosen] = chosen_for_goal(scene, asked, {});
   const Technique& technique = chosen_technique(scene, settings);

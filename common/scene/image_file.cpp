@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -55,6 +56,21 @@ std::vector<std::string> channel_names(const std::string& layer, int channels) {
   return {before + "R", before + "G", before + "B"};
 }
 
+// All that tells what the pixels come from; tone-mapped ones of more than floats.
+std::vector<std::pair<std::string, std::string>> metadata_of(const std::string& extension, const ImageFileOptions& options) {
+  auto all = options.metadata;
+  if (holds_floats(extension)) return all;
+  all.emplace_back("airlight:exposure", fmt::format("{}", options.exposure));
+  all.emplace_back("airlight:tonemap", options.tonemap);
+  return all;
+}
+
+// Of an image that is not the first, in formats of one image a file.
+std::string file_of_image(const std::string& path, const std::string& image) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() / whole.stem()).string() + "." + image + whole.extension().string();
+}
+
 OIIO::ImageSpec spec_for(const Channels& content, const std::string& extension, const ImageFileOptions& options) {
   const bool floats = holds_floats(extension);
   const HostImage& image = content.image;
@@ -68,7 +84,7 @@ OIIO::ImageSpec spec_for(const Channels& content, const std::string& extension, 
   if (extension == "exr") spec.attribute("compression", "zip");
   if (extension == "png") spec.attribute("png:compressionLevel", 6);
   if (extension == "jpg" || extension == "jpeg") spec.attribute("Compression", "jpeg:95");
-  for (const auto& [name, value] : options.metadata) spec.attribute(name, value);
+  for (const auto& [name, value] : metadata_of(extension, options)) spec.attribute(name, value);
   return spec;
 }
 
@@ -159,10 +175,8 @@ std::vector<std::string> write_images(const std::string& path, std::span<const N
     }
     outputs.push_back({path, std::move(all), nullptr});
   } else {
-    const std::filesystem::path whole(path);
     for (const NamedImage& i : images) {
-      const std::string name =
-          outputs.empty() ? path : (whole.parent_path() / whole.stem()).string() + "." + i.name + whole.extension().string();
+      const std::string name = outputs.empty() ? path : file_of_image(path, i.name);
       outputs.push_back({name, {i.image, channel_names("", i.image.channels)}, nullptr});
     }
   }
@@ -238,6 +252,51 @@ std::vector<NamedImage> read_images(const std::string& path) {
     images.push_back(std::move(named));
   }
   return images;
+}
+
+namespace {
+
+// What the file says of itself in keys of ours.
+std::map<std::string, std::string> read_metadata(const std::string& path) {
+  std::map<std::string, std::string> all;
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+  if (!input) return all;  // PFM, which is read without OpenImageIO, has none
+  for (const OIIO::ParamValue& p : input->spec().extra_attribs) {
+    if (p.name().string().starts_with("airlight:")) all[p.name().string()] = p.get_string();
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string difference_from_written(const std::string& path, std::span<const std::string> images, Extent extent,
+                                    const ImageFileOptions& options) {
+  const std::string extension = lower_extension(path);
+  const bool one_file = extension == "exr";
+  const auto expected = metadata_of(extension, options);
+  for (std::size_t k = 0; k < (one_file ? 1 : images.size()); ++k) {
+    const std::string file = k == 0 ? path : file_of_image(path, images[k]);
+    std::vector<NamedImage> there;
+    try {
+      there = read_images(file);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    const auto has = [&](const std::string& name) {
+      return std::any_of(there.begin(), there.end(), [&](const NamedImage& i) { return i.name == name; });
+    };
+    if (!(there[0].image.extent == extent)) return file + ": of another size";
+    if (one_file && (there.size() != images.size() || !std::all_of(images.begin() + 1, images.end(), has)))
+      return file + ": of other images";
+    const std::map<std::string, std::string> metadata = read_metadata(file);
+    if (metadata.empty()) continue;
+    for (const auto& [name, value] : expected) {
+      const auto found = metadata.find(name);
+      if (found == metadata.end() || found->second != value)
+        return fmt::format("{}: of another {}", file, name.substr(name.rfind(':') + 1));
+    }
+  }
+  return "";
 }
 
 }  // namespace airlight

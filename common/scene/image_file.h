@@ -30,6 +30,12 @@ std::vector<std::string> write_images(const std::string& path, std::span<const N
 // What write_images() would refuse of a path and options, before the work of making an image. Throws InputError.
 void check_image_path(const std::string& path, const ImageFileOptions&);
 
+// Why the files of `path` are not what write_images() would make of images of these names and this size; empty where they are, as
+// far as is told by: all files are there and readable to the last pixel, their size, their images' names (EXR), and their
+// metadata where the format has kept it (EXR, PNG).
+std::string difference_from_written(const std::string& path, std::span<const std::string> images, Extent,
+                                    const ImageFileOptions&);
+
 // Reads every channel as 32-bit float. Throws InputError.
 HostImage read_image(const std::string& path);
 

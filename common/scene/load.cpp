@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "common/error.h"
 #include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
@@ -54,48 +55,113 @@ void check_emission(const Node& medium, const Scene& scene) {
   place.fail("emission without extinction and without sky_distance adds up to infinity, expected one of them");
 }
 
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::string& name, const std::string& directory, Progress& progress) {
+// The keys of the whole file, and its version.
+Object whole_scene(const json::Value& root, const std::string& name) {
   static constexpr auto known =
-      keys("airlight", "camera", "sky_distance", "medium", "lights", "surfaces", "background", "noise", "technique");
-  static constexpr std::array<LaterKey, 1> later{{{"animation", "animations are"}}};
-  const json::Value root = json::parse(text, name);
-  const Object o(Node(root, name, ""), known, later);
+      keys("airlight", "camera", "sky_distance", "medium", "lights", "surfaces", "background", "noise", "animation", "technique");
+  const Object o(Node(root, name, ""), known);
   const Node version = o.require("airlight");
   if (version.value().kind != json::Kind::number || version.value().number != 1)
     version.fail("unknown format version, expected 1");
+  return o;
+}
 
+Scene scene_of(const Object& o, SceneFiles& files, Progress& progress) {
   Loading loading;
   Scene& scene = loading.scene;
   if (const auto camera = o.find("camera")) scene.camera = parse_camera(*camera);
   if (const auto sky = o.find("sky_distance")) scene.sky_distance = sky->number(limits::length);
   if (const auto medium = o.find("medium")) {
-    parse_medium(*medium, directory, loading, progress);
+    parse_medium(*medium, files, loading, progress);
     check_emission(*medium, scene);
   }
   if (const auto noise = o.find("noise")) scene.medium.noise = parse_noise(*noise);
-  if (const auto lights = o.find("lights")) parse_lights(*lights, directory, loading);
+  if (const auto lights = o.find("lights")) parse_lights(*lights, files, loading);
   if (const auto background = o.find("background")) {
     if (scene.environment) background->fail("beside an environment light, expected one or the other");
     scene.background = background->vec3(limits::radiance);
   }
   if (const auto technique = o.find("technique")) parse_technique(*technique, scene);
-  if (const auto surfaces = o.find("surfaces")) parse_surfaces(*surfaces, directory, loading, progress);
-  scene.hash = scene_hash(loading);
+  if (const auto surfaces = o.find("surfaces")) parse_surfaces(*surfaces, files, loading, progress);
+  if (files.use == FileUse::read) scene.hash = scene_hash(loading);
   return std::move(scene);
 }
 
+}  // namespace
+
+struct SceneFile::State {
+  std::string name;
+  json::Value root;  // null of a glTF file, which is read by itself
+  SceneFiles files;
+  Animation animation;
+
+  State(json::Value document, const std::string& file, const std::string& directory)
+      : name(file), root(std::move(document)), files(directory), animation(root, name) {}
+
+  bool is_gltf() const { return root.kind == json::Kind::null; }
+  Scene scene(int frame, FileUse use, Progress& progress) {
+    animation.set(frame);
+    files.use = use;
+    try {
+      return scene_of(whole_scene(root, name), files, progress);
+    } catch (const InputError& e) {
+      if (!animation.animated()) throw;
+      throw InputError(fmt::format("{} (frame {})", e.what(), frame));
+    }
+  }
+  void check(int frame, FileUse use) {
+    NoProgress none;
+    if (!is_gltf()) scene(frame, use, none);
+  }
+};
+
+SceneFile::SceneFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".gltf" || extension == ".glb") {
+    state_ = std::make_unique<State>(json::Value(), path, "");
+  } else {
+    *this = SceneFile(read_file(path, most_scene_bytes), path, folder_of(path));
+  }
+}
+
+SceneFile::SceneFile(std::string_view text, const std::string& name, const std::string& directory) {
+  json::Value root = json::parse(text, name);
+  whole_scene(root, name);
+  state_ = std::make_unique<State>(std::move(root), name, directory);
+  for (const int frame : state_->animation.keyed_frames()) state_->check(frame, FileUse::ignore);
+}
+
+SceneFile::~SceneFile() = default;
+SceneFile::SceneFile(SceneFile&&) noexcept = default;
+SceneFile& SceneFile::operator=(SceneFile&&) noexcept = default;
+
+bool SceneFile::animated() const { return state_->animation.animated(); }
+FrameRange SceneFile::frames() const { return state_->animation.frames(); }
+std::size_t SceneFile::tracks() const { return state_->animation.tracks(); }
+std::vector<std::string> SceneFile::numbered_files() const { return state_->animation.numbered_files(); }
+
+Scene SceneFile::scene(int frame, Progress& progress) {
+  if (state_->is_gltf()) return load_gltf_scene(state_->name, progress);
+  Scene scene = state_->scene(frame, FileUse::read, progress);
+  state_->files.end_frame();
+  return scene;
+}
+
+void SceneFile::check(int frame) { state_->check(frame, FileUse::look); }
+
 Scene load_scene(const std::string& path, Progress& progress) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".gltf" || extension == ".glb") return load_gltf_scene(path, progress);
-  const std::string text = read_file(path, most_scene_bytes);
-  return parse_scene(text, path, folder_of(path), progress);
+  SceneFile file(path);
+  return file.scene(file.frames().first, progress);
 }
 
 Scene load_scene(const std::string& path) {
   NoProgress none;
   return load_scene(path, none);
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::string& directory, Progress& progress) {
+  SceneFile file(text, name, directory);
+  return file.scene(file.frames().first, progress);
 }
 
 }  // namespace airlight

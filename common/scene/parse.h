@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/scene/mesh_file.h"
 #include "common/scene/reader.h"
 #include "common/scene/scene.h"
+#include "common/scene/scene_files.h"
 
 namespace airlight {
 
@@ -32,16 +32,17 @@ struct Loading {
   std::string environment_hash;         // of the environment's image: its file's bytes
 };
 
-// Into scene.lights and scene.environment; `directory` is where relative paths start.
-void parse_lights(const Node&, const std::string& directory, Loading&);
+// Where files are not read, what comes of them is missing, and so are surfaces.
 
-// Into scene.medium; `directory` is where relative paths start.
-void parse_medium(const Node&, const std::string& directory, Loading&, Progress&);
+// Into scene.lights and scene.environment.
+void parse_lights(const Node&, SceneFiles&, Loading&);
+
+// Into scene.medium.
+void parse_medium(const Node&, SceneFiles&, Loading&, Progress&);
 
 Noise parse_noise(const Node&);
 
-// A file that two surfaces name is read once.
-void parse_surfaces(const Node&, const std::string& directory, Loading&, Progress&);
+void parse_surfaces(const Node&, SceneFiles&, Loading&, Progress&);
 
 // SHA-256 over every value (defaults filled in, in a fixed order) and the hashes of the files.
 std::string scene_hash(const Loading&);

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "common/error.h"
-#include "common/scene/environment_file.h"
-#include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
 
@@ -52,7 +49,7 @@ LightSource parse_directional(const Node& node) {
   return l;
 }
 
-Environment parse_environment(const Node& node, const std::string& directory, std::string& hash) {
+Environment parse_environment(const Node& node, SceneFiles& files, std::string& hash) {
   static constexpr auto known = keys("type", "file", "scale", "rotation", "radiance");
   const Object o(node, known);
   Environment e;
@@ -64,24 +61,20 @@ Environment parse_environment(const Node& node, const std::string& directory, st
     e.radiance = radiance->vec3(limits::radiance);
     return e;
   }
-  const Node file = o.require("file");
-  const std::string path = resolved(directory, file.string());
-  try {
-    EnvironmentFile read = read_environment_file(path);
-    e.image = std::move(read.image);
-    hash = std::move(read.content_hash);
-  } catch (const InputError& error) {
-    file.fail(error.what());
-  }
   const double factor = scale ? scale->number(limits::factor) : 1;
+  e.radiance = glm::dvec3(factor);
+  if (rotation) e.rotation = rotation->number(limits::degrees);
+  const Node file = o.require("file");
+  const auto read = files.environment(file);
+  if (!read) return e;
+  e.image = read->image;
+  hash = read->content_hash;
   const auto largest = static_cast<double>(*std::max_element(e.image->values.begin(), e.image->values.end()));
   if (largest * factor > limits::radiance.most) {
     (scale ? *scale : file)
         .fail(fmt::format("radiance {} W/m^2/sr where the image's value is {}, expected at most {} W/m^2/sr", largest * factor,
                           largest, limits::radiance.most));
   }
-  e.radiance = glm::dvec3(factor);
-  if (rotation) e.rotation = rotation->number(limits::degrees);
   return e;
 }
 
@@ -100,13 +93,13 @@ std::string parse_type(const Node& node) {
 
 }  // namespace
 
-void parse_lights(const Node& node, const std::string& directory, Loading& loading) {
+void parse_lights(const Node& node, SceneFiles& files, Loading& loading) {
   Scene& scene = loading.scene;
   for (const Node& n : node.array()) {
     const std::string type = parse_type(n);
     if (type == "environment") {
       if (scene.environment) n.fail("a second environment light, expected one at most");
-      scene.environment = parse_environment(n, directory, loading.environment_hash);
+      scene.environment = parse_environment(n, files, loading.environment_hash);
       continue;
     }
     LightSource light = type == "point" ? parse_point(n) : parse_directional(n);

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
-#include "common/error.h"
-#include "common/scene/files.h"
-#include "common/scene/grid_file.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
 
@@ -70,7 +67,7 @@ void check_extent(const Node& node, const GridMedium& grid) {
   }
 }
 
-GridMedium parse_grid(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
+GridMedium parse_grid(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
   static constexpr auto known = keys("file", "name", "scale", "transform", "translate", "rotate", "size", "albedo");
   const Object o(node, known);
   GridMedium grid;
@@ -82,20 +79,15 @@ GridMedium parse_grid(const Node& node, const std::string& directory, Loading& l
 
   // The file comes last: what the scene says itself is checked without it.
   const Node file = o.require("file");
-  const std::string path = resolved(directory, file.string());
-  GridFile read;
-  try {
-    read = read_grid_file(path, loading.grid_name, progress);
-  } catch (const InputError& e) {
-    file.fail(e.what());
-  }
-  loading.grid_hash = read.content_hash;
-  grid.voxels = read.voxels;
-  grid.transform = placement * read.transform;
-  if (singular(read.transform)) file.fail(path + ": its transform is singular, expected an invertible one");
+  const auto read = files.grid(file, loading.grid_name, progress);
+  if (!read) return grid;
+  loading.grid_hash = read->content_hash;
+  grid.voxels = read->voxels;
+  grid.transform = placement * read->transform;
+  if (singular(read->transform)) file.fail("its file's transform is singular, expected an invertible one");
   if (singular(grid.transform)) node.fail("a singular transform with that of the file, expected an invertible one");
   check_extent(file, grid);
-  const auto largest = static_cast<double>(*std::max_element(read.voxels->values.begin(), read.voxels->values.end()));
+  const auto largest = static_cast<double>(*std::max_element(grid.voxels->values.begin(), grid.voxels->values.end()));
   if (largest * grid.scale > limits::extinction.most) {
     (scale ? *scale : file)
         .fail(fmt::format("extinction {} 1/m where the grid's value is {}, expected at most {} 1/m", largest * grid.scale,
@@ -116,7 +108,7 @@ Noise parse_noise(const Node& node) {
   return noise;
 }
 
-void parse_medium(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
+void parse_medium(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
   static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians", "grid");
   static constexpr std::array<LaterKey, 2> later{
       {{"gaussians_file", "files of Gaussians are"}, {"particles_file", "files of particles are"}}};
@@ -130,7 +122,7 @@ void parse_medium(const Node& node, const std::string& directory, Loading& loadi
   if (const auto gaussians = o.find("gaussians")) {
     for (const Node& g : gaussians->array()) m.gaussians.push_back(parse_gaussian(g, m));
   }
-  if (const auto grid = o.find("grid")) m.grid = parse_grid(*grid, directory, loading, progress);
+  if (const auto grid = o.find("grid")) m.grid = parse_grid(*grid, files, loading, progress);
 }
 
 }  // namespace airlight

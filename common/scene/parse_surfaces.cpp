@@ -7,9 +7,6 @@
 #include <glm/vec4.hpp>
 #include <numbers>
 
-#include "common/error.h"
-#include "common/scene/brdf_file.h"
-#include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/mesh_check.h"
 #include "common/scene/parse.h"
@@ -120,33 +117,25 @@ Material parse_material(const Node& node) {
 
 namespace {
 
-// The file that a material names, if it does; of those read already where it is one of them.
-void add_brdf(const Node& material, const std::string& directory, std::map<std::string, BrdfFile>& read, Surface& surface,
-              std::string& hash) {
+// The file that a material names, if it does.
+void add_brdf(const Node& material, SceneFiles& files, Surface& surface, std::string& hash) {
   for (const json::Value& member : material.value().items) {
     if (member.key != "brdf") continue;
     const Node node(member, material.file(), material.path() + ".brdf");
-    const std::string path = resolved(directory, node.string());
-    try {
-      if (!read.contains(path)) read[path] = read_brdf_file(path);
-    } catch (const InputError& e) {
-      node.fail(e.what());
-    }
-    const BrdfFile& file = read[path];
-    surface.brdf = file.brdf;
-    surface.material = file.material;
-    hash = file.content_hash;
+    const auto file = files.brdf(node);
+    if (!file) continue;
+    surface.brdf = file->brdf;
+    surface.material = file->material;
+    hash = file->content_hash;
   }
 }
 
 }  // namespace
 
-void parse_surfaces(const Node& node, const std::string& directory, Loading& loading, Progress& progress) {
+void parse_surfaces(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
   static constexpr auto known =
       keys("mesh", "transform", "translate", "rotate", "scale", "casts_shadow", "material", "normals", "prt");
   static constexpr auto normals_names = keys("auto", "flat");
-  std::map<std::pair<std::string, bool>, MeshFile> read;
-  std::map<std::string, BrdfFile> read_brdfs;
   const std::vector<Node> nodes = node.array();
   std::uint64_t triangles = 0, vertices = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -161,23 +150,16 @@ void parse_surfaces(const Node& node, const std::string& directory, Loading& loa
     std::string brdf_hash;
     if (const auto material = o.find("material")) {
       surface.material = parse_material(*material);
-      add_brdf(*material, directory, read_brdfs, surface, brdf_hash);
+      add_brdf(*material, files, surface, brdf_hash);
     }
     const auto normals = o.find("normals");
     const bool flat = normals && normals->choice(normals_names) == "flat";
 
     // The file comes last: what the scene says itself is checked without it.
     const Node mesh = o.require("mesh");
-    const std::string path = resolved(directory, mesh.string());
-    MeshFile& file = read[{path, flat}];
-    if (!file.mesh) {
-      try {
-        file = read_mesh_file(path, flat, progress);
-      } catch (const InputError& e) {
-        mesh.fail(e.what());
-      }
-    }
-    surface.mesh = file.mesh;
+    const auto file = files.mesh(mesh, flat, progress);
+    if (!file) continue;
+    surface.mesh = file->mesh;
     check_extent(mesh, surface);
     triangles += surface.mesh->triangles.size();
     vertices += surface.mesh->positions.size();
@@ -185,7 +167,7 @@ void parse_surfaces(const Node& node, const std::string& directory, Loading& loa
       mesh.fail(fmt::format("{} triangles in all surfaces, expected at most {}", triangles, most_triangles));
     }
     loading.scene.surfaces.push_back(std::move(surface));
-    loading.surfaces.push_back({file.content_hash, flat, std::move(brdf_hash)});
+    loading.surfaces.push_back({file->content_hash, flat, std::move(brdf_hash)});
   }
 }
 

@@ -182,9 +182,9 @@ TEST_F(Program, HelpListsWhatWorks) {
   const Told told = work.run("render --help");
   EXPECT_EQ(told.code, 0);
   for (const std::string word : {"table_nodes", "--technique", "gaussian-airlight", "opacity-propagation", "illumination-network",
-                                 "marching", "reference", "Examples"})
+                                 "marching", "reference", "--frames", "--resume", "Examples"})
     EXPECT_NE(told.out.find(word), std::string::npos) << word;
-  EXPECT_EQ(told.out.find("--frames"), std::string::npos);
+  EXPECT_EQ(told.out.find("--seed"), std::string::npos);
   EXPECT_EQ(work.run("--version").out.substr(0, 9), "airlight ");
 }
 
@@ -216,7 +216,7 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --backend gl --technique reference", 2, "reference");
   refused("render scene.json -o a.exr --technique shadow-planes --set indirect=exact", 2, "unbounded | off");
   refused("render scene.json -o a.exr --technique radiosity", 2, "radiosity");
-  refused("render scene.json -o a.exr --frames 0-9", 2, "--frames: not in this version");
+  refused("render scene.json -o a.exr --seed 1", 2, "--seed: not in this version");
   refused("view scene.json", 2, "view: not in this version");
   refused("render scene.json -o a.exr --supersample 17", 2, "1..16");
   refused("render scene.json -o a.exr --tonemap filmic", 2, "reinhard");
