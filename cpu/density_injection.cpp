@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/algorithms/voxel_table.h"
+#include "cpu/halves.h"
 #include "cpu/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -104,7 +105,9 @@ void run_volume(const DensityInjection& a, const BufferView& view, Workers& work
   const int size[3] = {static_cast<int>(a.size.x), static_cast<int>(a.size.y), static_cast<int>(a.size.z)};
   const int ring[3] = {size[0] + 2, size[1] + 2, size[2] + 2};
   const int bricks[3] = {bricks_an_axis(size[0]), bricks_an_axis(size[1]), bricks_an_axis(size[2])};
-  float* out = view.made(a.extinction);
+  std::vector<float> packed;  // what becomes halves
+  if (a.half_unit > 0) packed.resize(voxel_table_floats(glm::ivec3(a.size)));
+  float* out = packed.empty() ? view.made(a.extinction) : packed.data();
   for (int axis = 0; axis < 3; ++axis) out[axis] = static_cast<float>(size[axis]);
   float* values = out + 3;
   const std::size_t layer = static_cast<std::size_t>(ring[0]) * static_cast<std::size_t>(ring[1]);
@@ -166,6 +169,8 @@ void run_volume(const DensityInjection& a, const BufferView& view, Workers& work
   float* bounds = values + layer * static_cast<std::size_t>(ring[2]);
   for (int axis = 0; axis < 3; ++axis) bounds[axis] = static_cast<float>(bricks[axis]);
   workers.each(bricks[2], [&](int c, int) { bound_bricks(values, ring, bricks, c, bounds + 3); });
+  if (!packed.empty())
+    pack_halves(packed, 3, voxel_values(glm::ivec3(a.size)), 1 / a.half_unit, view.made(a.extinction), workers);
 }
 
 }  // namespace airlight

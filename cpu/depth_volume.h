@@ -17,7 +17,7 @@ HWY_INLINE Real depth_to_light(const DepthVolume& volume, table depths, const Re
     const glm::vec4& row = volume.rows[axis];
     return fma(row.x, p.x, fma(row.y, p.y, fma(row.z, p.z, row.w)));
   };
-  return depth_in_volume(depths, static_cast<int>(volume.kind), frame(0), frame(1), frame(2));
+  return depth_in_volume(depths, static_cast<int>(volume.kind), volume.halves ? 1 : 0, frame(0), frame(1), frame(2));
 }
 
 }  // namespace airlight::HWY_NAMESPACE

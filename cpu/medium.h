@@ -49,7 +49,8 @@ struct GridLookup {
   HWY_INLINE Real extinction_at(const Real3& p) const {
     const Real x = coordinate(0, p), y = coordinate(1, p), z = coordinate(2, p);
     if (!any_lane(grid_bound(bricks, x, y, z, grid->size.x, grid->size.y, grid->size.z) > 0.0)) return 0.0;
-    return grid_extinction(values, x, y, z);
+    if (grid->half_unit > 0) return grid->half_unit * grid_extinction(values, 1, x, y, z);
+    return grid_extinction(values, 0, x, y, z);
   }
   // Where a way meets the box with half a cell around it.
   HWY_INLINE Stretch stretch(const Real3& from, const Real3& direction, Real length) const {

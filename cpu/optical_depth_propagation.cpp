@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/algorithms/voxel_table.h"
+#include "cpu/halves.h"
 #include "cpu/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -277,7 +278,9 @@ void sweep(const OpticalDepthPropagation& a, const float* voxels, float* depths,
 
 void run_volume(const OpticalDepthPropagation& a, const BufferView& view, Workers& workers, Simd simd) {
   const DepthVolume& v = a.volume;
-  float* out = view.made(a.depths);
+  std::vector<float> packed;  // what becomes halves
+  if (v.halves) packed.resize(DepthVolume::head + v.depths());
+  float* out = packed.empty() ? view.made(a.depths) : packed.data();
   for (int axis = 0; axis < 3; ++axis) {
     out[axis] = v.first[axis];
     out[3 + axis] = v.scale[axis];
@@ -301,6 +304,7 @@ void run_volume(const OpticalDepthPropagation& a, const BufferView& view, Worker
     float* plane = out + 9 + static_cast<std::ptrdiff_t>(nx) * ny * n;
     entry(HWY_DISPATCH_TABLE(sharpen_plane), simd)(nx, ny, plane, scratch[static_cast<std::size_t>(worker)].data());
   });
+  if (!packed.empty()) pack_halves(packed, DepthVolume::head, v.depths(), 1, view.made(a.depths), workers);
 }
 
 }  // namespace airlight

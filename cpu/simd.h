@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/half.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -122,15 +124,45 @@ HWY_INLINE real weighted_patch(table t, real at, int stride, real a0, real a1, r
   } while (!hn::AllFalse(di, waiting));
   return result;
 }
+// Elements of a table, floats or halves, made floats: one; as many as there are lanes from q on, of floats no more than
+// `readable`; those with numbers i and i + 1, by one load, for a gather costs by the element.
+HWY_INLINE Real value_of(float x) { return x; }
+HWY_INLINE Real value_of(std::uint16_t half) { return float_of(half); }
+#if HWY_TARGET != HWY_SCALAR
+using Halves = hn::Rebind<std::uint16_t, Floats>;
+HWY_INLINE Vec widened(hn::Vec<Halves> halves) {
+  return hn::PromoteTo(Floats(), hn::BitCast(hn::Rebind<hwy::float16_t, Floats>(), halves));
+}
+HWY_INLINE Vec values_from(const float* q, hn::Mask<Floats> readable) { return hn::MaskedLoad(readable, Floats(), q); }
+HWY_INLINE Vec values_from(const std::uint16_t* q, hn::Mask<Floats>) { return widened(hn::LoadU(Halves(), q)); }
+HWY_INLINE void gather_pairs(const float* t, IntVec i, Vec& left, Vec& right) {
+  const hn::RepartitionToWide<Ints> pairs;
+  const hn::Rebind<std::int32_t, decltype(pairs)> half;
+  const auto* from = reinterpret_cast<const std::int64_t*>(t);
+  const IntVec bytes = hn::ShiftLeft<2>(i);
+  const auto low = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::LowerHalf(half, bytes)));
+  const auto high = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::UpperHalf(half, bytes)));
+  const Vec a = hn::BitCast(Floats(), low), b = hn::BitCast(Floats(), high);
+  left = hn::ConcatEven(Floats(), b, a);
+  right = hn::ConcatOdd(Floats(), b, a);
+}
+HWY_INLINE void gather_pairs(const std::uint16_t* t, IntVec i, Vec& left, Vec& right) {
+  const Ints di;
+  const IntVec both = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(t), hn::ShiftLeft<1>(i));
+  left = widened(hn::DemoteTo(Halves(), hn::And(both, hn::Set(di, 0xffff))));
+  right = widened(hn::DemoteTo(Halves(), hn::ShiftRight<16>(both)));
+}
+#endif
 // The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
-HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+template <class T>
+HWY_INLINE real weighted_cell_of(const T* t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
   const IntVec width = to_int(nx), layer_size = hn::Mul(width, to_int(ny));
   const IntVec index = hn::Add(to_int(x), hn::Add(hn::Mul(width, to_int(y)), hn::Mul(layer_size, to_int(z))));
   const auto between = [](Real a, Real b, Real weight) HWY_ATTR { return fma(weight, b - a, a); };
 #if HWY_TARGET == HWY_SCALAR
-  const auto row = [&](const float* q) { return between(q[0], q[1], u); };
-  const auto layer = [&](const float* q) { return between(row(q), row(q + hn::GetLane(width)), v); };
-  const float* p = t + hn::GetLane(index);
+  const auto row = [&](const T* q) { return between(value_of(q[0]), value_of(q[1]), u); };
+  const auto layer = [&](const T* q) { return between(row(q), row(q + hn::GetLane(width)), v); };
+  const T* p = t + hn::GetLane(index);
   return between(layer(p), layer(p + hn::GetLane(layer_size)), w);
 #else
   const Ints di;
@@ -154,32 +186,33 @@ HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny,
     const auto left = hn::IndicesFromVec(Floats(), inside);
     const auto right = hn::IndicesFromVec(Floats(), hn::And(hn::Add(inside, hn::Set(di, 1)), hn::Set(di, lanes - 1)));
     const auto readable = hn::FirstN(Floats(), static_cast<std::size_t>(read));
-    const auto row = [&](const float* q) HWY_ATTR {
-      const Vec cells = hn::MaskedLoad(readable, Floats(), q);
+    const auto row = [&](const T* q) HWY_ATTR {
+      const Vec cells = values_from(q, readable);
       return between(Real(hn::TableLookupLanes(cells, left)), Real(hn::TableLookupLanes(cells, right)), u);
     };
-    const auto layer = [&](const float* q) HWY_ATTR { return between(row(q), row(q + next_row), v); };
-    const float* p = t + begin;
+    const auto layer = [&](const T* q) HWY_ATTR { return between(row(q), row(q + next_row), v); };
+    const T* p = t + begin;
     const Real value = between(layer(p), layer(p + next_layer), w);
     result = hn::IfThenElse(hn::RebindMask(Floats(), here), value.v, result.v);
     waiting = hn::AndNot(here, waiting);
     if (hn::AllFalse(di, waiting)) return result;
   }
-  // Both ends of a row by one load: a gather costs by the element.
-  const hn::RepartitionToWide<Ints> pairs;
-  const hn::Rebind<std::int32_t, decltype(pairs)> half;
-  const auto* from = reinterpret_cast<const std::int64_t*>(t);
   const auto row = [&](IntVec i) HWY_ATTR {
-    const IntVec bytes = hn::ShiftLeft<2>(i);
-    const auto low = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::LowerHalf(half, bytes)));
-    const auto high = hn::GatherOffset(pairs, from, hn::PromoteTo(pairs, hn::UpperHalf(half, bytes)));
-    const Vec a = hn::BitCast(Floats(), low), b = hn::BitCast(Floats(), high);
-    return between(Real(hn::ConcatEven(Floats(), b, a)), Real(hn::ConcatOdd(Floats(), b, a)), u);
+    Vec left, right;
+    gather_pairs(t, i, left, right);
+    return between(left, right, u);
   };
   const auto layer = [&](IntVec i) HWY_ATTR { return between(row(i), row(hn::Add(i, width)), v); };
   const Real gathered = between(layer(index), layer(hn::Add(index, layer_size)), w);
   return hn::IfThenElse(hn::RebindMask(Floats(), waiting), gathered.v, result.v);
 #endif
+}
+
+HWY_INLINE real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(t, x, y, z, nx, ny, u, v, w);
+}
+HWY_INLINE real weighted_half_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(reinterpret_cast<const std::uint16_t*>(t), x, y, z, nx, ny, u, v, w);
 }
 
 #include "common/formulas/elementary.h"

@@ -3,14 +3,15 @@
 #include <cstdint>
 
 #include "common/algorithms/voxel_table.h"
+#include "gpu/halves.h"
 #include "gpu/medium.h"
 
 namespace airlight {
 
 namespace {
 
-constexpr int block_side = 8;                          // cells, as in the shader
-constexpr GLuint begin_number = 40, list_number = 41;  // buffers of this step
+constexpr int block_side = 8;                                              // cells, as in the shader
+constexpr GLuint begin_number = 40, list_number = 41, packed_number = 44;  // buffers of this step
 
 // Which Gaussians reach into each block of cells, in their order.
 struct BlockLists {
@@ -65,12 +66,18 @@ void run(const DensityInjection& a, StepRunner& r, const Progress& progress) {
   const auto count = [](const glm::ivec3& n) {
     return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
   };
+  const bool halves = a.half_unit > 0;
+  if (halves) r.reserve(packed_number, sizeof(float) * voxel_table_floats(size));
   const auto set_up = [&](Program& program) {
     program.set("size_x", size.x);
     program.set("size_y", size.y);
     program.set("size_z", size.z);
     program.set("cell", a.cell);
-    r.storage(0, a.extinction);
+    if (halves) {
+      r.bind(0, packed_number);
+    } else {
+      r.storage(0, a.extinction);
+    }
   };
   Program& inject = r.compute("gpu/density_injection.glsl", defines);
   set_up(inject);
@@ -92,6 +99,7 @@ void run(const DensityInjection& a, StepRunner& r, const Progress& progress) {
   Program& bound = r.compute("gpu/density_injection.glsl", {"BOUND"});
   set_up(bound);
   r.each(bound, count({bricks_an_axis(size.x), bricks_an_axis(size.y), bricks_an_axis(size.z)}), 64);
+  if (halves) pack_halves(r, packed_number, 3, voxel_values(size), 1 / a.half_unit, a.extinction);
 }
 
 }  // namespace airlight

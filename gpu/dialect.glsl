@@ -47,5 +47,27 @@ real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, re
   return fma(w, far_layer - near_layer, near_layer);
 }
 
+// Half number p from the buffer's beginning, as common/half.h has it: an unpacked tiny one would be flushed to 0 on the way.
+real half_value(int p) {
+  int word = floatBitsToInt(table_values[p >> 1]);
+  int bits = (word >> (16 * (p & 1))) & 0x7fff;
+  return bits < 0x400 ? float(bits) * (1.0 / 16777216.0) : intBitsToFloat((bits << 13) + 0x38000000);
+}
+real weighted_half_pair(int p, real u) {
+  real a = half_value(p);
+  return fma(u, half_value(p + 1) - a, a);
+}
+real weighted_half_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  int width = int(nx);
+  int layer = width * int(ny);
+  int p = 2 * t + int(x) + width * int(y) + layer * int(z);
+  real a = weighted_half_pair(p, u);
+  real near_layer = fma(v, weighted_half_pair(p + width, u) - a, a);
+  p += layer;
+  real b = weighted_half_pair(p, u);
+  real far_layer = fma(v, weighted_half_pair(p + width, u) - b, b);
+  return fma(w, far_layer - near_layer, near_layer);
+}
+
 #include "common/formulas/elementary.h"
 #include "common/formulas/formulas.h"

@@ -33,7 +33,7 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
   MediumBlock block{};
   block.counts = {static_cast<int>(gaussians.size()), light_steps, grid ? static_cast<int>(bricks_at(grid)) : 0, 0};
   std::copy(std::begin(grid.cells), std::end(grid.cells), block.cells);
-  block.size = glm::vec4(grid.size, 0);
+  block.size = glm::vec4(grid.size, grid.half_unit);
   block.albedo = glm::vec4(grid.albedo, 0);
   if (few) std::copy(values.begin(), values.end(), block.gaussians);
   r.block(medium_binding, block);
@@ -55,7 +55,7 @@ TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& 
   if (d.depths.empty() && !d.sources) return {};
   struct Head {  // of a light, as gpu/medium.glsl reads it
     glm::vec4 rows[3];
-    std::int32_t kind, at, unused[2];
+    std::int32_t kind, at, halves, unused;
   };
   std::vector<Head> heads;
   std::size_t bytes = tables.bytes + sizeof(Head) * d.depths.size();
@@ -64,7 +64,8 @@ TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& 
     heads.push_back({{v.rows[0], v.rows[1], v.rows[2]},
                      static_cast<std::int32_t>(v.kind),
                      static_cast<std::int32_t>(bytes / sizeof(float)),
-                     {}});
+                     v.halves ? 1 : 0,
+                     0});
     bytes += d.depths[k].bytes;
   }
   const std::size_t sources_at = bytes;

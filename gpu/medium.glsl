@@ -3,7 +3,7 @@
 layout(std140, binding = 3) uniform MediumBlock {
   ivec4 medium_counts;  // Gaussians, steps to a light, where the bricks begin
   vec4 grid_cells[3];
-  vec4 grid_size;
+  vec4 grid_size;  // and the unit of halves, 0 without
   vec4 grid_albedo;
 #ifndef MANY_GAUSSIANS
   vec4 gaussian_values[384];
@@ -37,7 +37,8 @@ float grid_extinction_at(vec3 p) {
   float y = grid_coordinate_of(1, p);
   float z = grid_coordinate_of(2, p);
   if (grid_bound(medium_counts.z, x, y, z, grid_size.x, grid_size.y, grid_size.z) <= 0.0) return 0.0;
-  return grid_extinction(0, x, y, z);
+  if (grid_size.w > 0.0) return grid_size.w * grid_extinction(0, 1, x, y, z);
+  return grid_extinction(0, 0, x, y, z);
 }
 
 // Stretches are [begin, end] along a way, empty where end <= begin.
@@ -119,7 +120,7 @@ float depth_of_way(vec3 from, vec3 direction, float length) {
 #ifdef WITH_DEPTH_VOLUMES
 uniform int depth_volumes_at;
 
-// A light's head: the rows of its DepthVolume, its kind, where its table begins.
+// A light's head: the rows of its DepthVolume, its kind, where its table begins, whether it has halves.
 float depth_to_light(int k, vec3 p) {
   int head = depth_volumes_at + 16 * k;
   vec3 q;
@@ -127,7 +128,7 @@ float depth_to_light(int k, vec3 p) {
     int row = head + 4 * axis;
     q[axis] = fma(table_values[row], p.x, fma(table_values[row + 1], p.y, fma(table_values[row + 2], p.z, table_values[row + 3])));
   }
-  return depth_in_volume(floatBitsToInt(table_values[head + 13]), floatBitsToInt(table_values[head + 12]), q.x, q.y, q.z);
+  return depth_in_volume(floatBitsToInt(table_values[head + 13]), floatBitsToInt(table_values[head + 12]), floatBitsToInt(table_values[head + 14]), q.x, q.y, q.z);
 }
 #endif
 

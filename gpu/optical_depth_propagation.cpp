@@ -2,13 +2,14 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "gpu/halves.h"
 #include "gpu/medium.h"
 
 namespace airlight {
 
 namespace {
 
-constexpr GLuint sharpened_number = 43;  // a buffer of this step
+constexpr GLuint sharpened_number = 43, packed_number = 45;  // buffers of this step
 
 // A layer of cells after the other, away from the light's: none reads what another of the same distance writes.
 void sweep(const OpticalDepthPropagation& a, StepRunner& r, const std::vector<std::string>& defines, const Progress& progress) {
@@ -45,7 +46,16 @@ void run(const OpticalDepthPropagation& a, StepRunner& r, const Progress& progre
                 {v.nodes, static_cast<float>(a.scheme)},
                 {a.light.vector, a.light.directional ? 1.0F : 0.0F}};
   r.block(knobs_binding, knobs);
-  r.storage(0, a.depths);
+  const std::size_t bytes = sizeof(float) * (DepthVolume::head + v.depths());  // before they become halves
+  if (v.halves) r.reserve(packed_number, bytes);
+  const auto bind_depths = [&](GLuint binding) {
+    if (v.halves) {
+      r.bind(binding, packed_number);
+    } else {
+      r.storage(binding, a.depths);
+    }
+  };
+  bind_depths(0);
   const auto with = [&](const char* define) {
     std::vector<std::string> defines = medium;
     defines.push_back(define);
@@ -72,19 +82,23 @@ void run(const OpticalDepthPropagation& a, StepRunner& r, const Progress& progre
   }
   // Three times from one buffer to the other, and back.
   Program& sharpen = r.compute("gpu/optical_depth_propagation.glsl", {"SHARPEN"});
-  r.reserve(sharpened_number, a.depths.bytes);
+  r.reserve(sharpened_number, bytes);
   for (const int axis : {2, 0, 1}) {
     sharpen.set("axis", axis);
     if (axis == 0) {
       r.bind(0, sharpened_number);
-      r.storage(1, a.depths);
+      bind_depths(1);
     } else {
-      r.storage(0, a.depths);
+      bind_depths(0);
       r.bind(1, sharpened_number);
     }
     r.each(sharpen, nodes, 64);
   }
-  r.copy_back(sharpened_number, r.buffer_name(a.depths), a.depths.bytes);
+  if (v.halves) {
+    pack_halves(r, sharpened_number, DepthVolume::head, v.depths(), 1, a.depths);
+  } else {
+    r.copy_back(sharpened_number, r.buffer_name(a.depths), bytes);
+  }
 }
 
 }  // namespace airlight

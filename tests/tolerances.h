@@ -58,6 +58,15 @@ inline constexpr Tolerance tolerances[] = {
      "they "
      "light than a few cells"},
     {"truth_propagation_fine", 0.002, "the same with 160 cells and 512 steps"},
+    {"half_volumes", 0.001,
+     "relative RMSE of volumes in 16 bits beside floats: a half is off by 2^-11 = 0.0005 of a number at most, once of the "
+     "extinction "
+     "that scatters, once of the depth, where this is about 1"},
+    {"half_rounded_otherwise", 0.01,
+     "share of halves that two backends round to different ones: floats 2e-6 apart, of which 1 in 250 has a middle between"},
+    {"half_beside_largest", 2e-6,
+     "of two backends' floats, beside the largest: a few units in the last place of what small ones are differences of"},
+    {"depth_in_halves", 0.0005, "relative, of depths: a half is off by 2^-11 = 0.0005 of a number at most"},
     {"depth_volume_32", 0.01,
      "relative RMS of optical depths looked up in a volume of 32 cells an edge, radii of three cells and more"},
     {"depth_volume_64", 0.003, "the same with 64"},

@@ -17,6 +17,7 @@ struct DensityInjection {
   GridDensity grid;                        // from where the box's corner is
   glm::vec3 size{0, 0, 0};                 // cells an axis, each > 1
   float cell = 1;                          // [m]
+  float half_unit = 0;                     // [1/m] as GridDensity's, of what is made
 
   Buffer extinction;  // [1/m]
 
@@ -29,6 +30,7 @@ struct DensityInjection {
     v(knob("grid"), s.grid);
     v(knob("size"), s.size);
     v(knob("cell", "m"), s.cell);
+    v(knob("half_unit", "1/m"), s.half_unit);
     v(out("extinction", "1/m"), s.extinction);
   }
 };

@@ -6,6 +6,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/half.h"
+
 namespace airlight {
 
 struct DepthVolume {
@@ -23,14 +25,17 @@ struct DepthVolume {
   // planes cube_plane_number() of that.
   glm::vec3 first{0, 0, 0}, scale{1, 1, 1};
   glm::vec3 nodes{0, 0, 0};  // of a face, each at least 2; 0: there is no volume
+  bool halves = false;  // depths are kept in 16 bits (common/half.h), 65504 at most: nothing is seen through a fraction of it
 
   explicit operator bool() const { return nodes.x > 0; }
   int faces() const { return kind == Kind::cube ? 6 : 1; }
-  // [float] of the buffer: head and depths.
-  std::size_t floats() const {
-    return 9 + static_cast<std::size_t>(faces()) * static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y) *
-                   static_cast<std::size_t>(nodes.z);
+  std::size_t depths() const {
+    return static_cast<std::size_t>(faces()) * static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y) *
+           static_cast<std::size_t>(nodes.z);
   }
+  // [float] of the buffer: head and depths.
+  static constexpr std::size_t head = 9;
+  std::size_t floats() const { return head + (halves ? floats_of_halves(depths()) : depths()); }
 };
 
 }  // namespace airlight

@@ -23,6 +23,7 @@ struct GridDensity {
   glm::vec4 cells[3] = {};
   glm::vec3 size{0, 0, 0};    // cells an axis
   glm::vec3 albedo{1, 1, 1};  // 0..1
+  float half_unit = 0;        // [1/m] in which they are kept in 16 bits, a power of 2; 0: they are floats
 
   explicit operator bool() const { return size.x > 0; }
 };

@@ -26,8 +26,8 @@ FORMULA real cube_plane_number(real distance) {
 
 // The optical depth at a place in the light's frame: a table of first, scale and nodes an axis (DepthVolume), then the depths, x fastest, plane by
 // plane, face by face. Linear an axis at a time between nodes; the outermost hold outside. kind: the order of DepthVolume::Kind. A cube (3) holds depths
-// beside the distance in cells: these are nearly the same from the light on.
-FORMULA real depth_in_volume(table t, int kind, real x, real y, real z) {
+// beside the distance in cells: these are nearly the same from the light on. halves: not 0 where the depths are halves (common/half.h).
+FORMULA real depth_in_volume(table t, int kind, int halves, real x, real y, real z) {
   real a = x;
   real b = y;
   real c = z;
@@ -52,7 +52,10 @@ FORMULA real depth_in_volume(table t, int kind, real x, real y, real z) {
   real plane = (c - element(t, 2)) * element(t, 5);
   if (kind == 3) plane = cube_plane_number(max(plane, 0.0));
   grid_lookup_clamped(plane, nz, k, w);
-  real depth = weighted_cell(t + 9, i, j, fma(face, nz, k), nx, ny, u, v, w);
+  real layer = fma(face, nz, k);
+  real depth;
+  if (halves != 0) depth = weighted_half_cell(t + 9, i, j, layer, nx, ny, u, v, w);
+  else depth = weighted_cell(t + 9, i, j, layer, nx, ny, u, v, w);
   if (kind == 3) depth = depth * cube_plane_distance(k + w);
   return depth;
 }

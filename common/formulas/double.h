@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+
+#include "common/half.h"
 
 namespace airlight::f64 {
 
@@ -38,13 +41,22 @@ inline real weighted_patch(table t, real at, int stride, real a0, real a1, real 
 }
 // The value at (x + u, y + v, z + w) between eight elements of a box in a table, x fastest: element (x, y, z) is number
 // x + nx (y + ny z). Lower corners and sizes are integral; linear an axis at a time, x first.
-inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+inline real value_of(float x) { return static_cast<real>(x); }
+inline real value_of(std::uint16_t half) { return static_cast<real>(float_of(half)); }
+template <class T>
+real weighted_cell_of(const T* t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
   const auto width = static_cast<long>(nx), height = static_cast<long>(ny);
-  const float* p = t + static_cast<long>(x) + width * (static_cast<long>(y) + height * static_cast<long>(z));
-  const auto row = [&](const float* q) { return fma(u, static_cast<real>(q[1]) - static_cast<real>(q[0]), static_cast<real>(q[0])); };
-  const auto layer = [&](const float* q) { const real a = row(q); return fma(v, row(q + width) - a, a); };
+  const T* p = t + static_cast<long>(x) + width * (static_cast<long>(y) + height * static_cast<long>(z));
+  const auto row = [&](const T* q) { return fma(u, value_of(q[1]) - value_of(q[0]), value_of(q[0])); };
+  const auto layer = [&](const T* q) { const real a = row(q); return fma(v, row(q + width) - a, a); };
   const real a = layer(p);
   return fma(w, layer(p + width * height) - a, a);
+}
+inline real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(t, x, y, z, nx, ny, u, v, w);
+}
+inline real weighted_half_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(reinterpret_cast<const std::uint16_t*>(t), x, y, z, nx, ny, u, v, w);
 }
 inline real exp_(real x) { return std::exp(x); }
 inline real exp2_(real x) { return std::exp2(x); }

@@ -22,8 +22,8 @@ FORMULA void grid_lookup_clamped(real coordinate, real n, OUT(real) lower, OUT(r
 }
 
 // A grid of extinctions in a table: the numbers of cells nx, ny, nz, then (nx+2) (ny+2) (nz+2) values, x fastest: the grid in its ring of
-// zeros. c in cells as from grid_coordinate(); exactly 0 from half a cell outside the box on.
-FORMULA real grid_extinction(table t, real cx, real cy, real cz) {
+// zeros, halves (common/half.h) or, where `halves` is 0, floats. c in cells as from grid_coordinate(); exactly 0 from half a cell outside the box on.
+FORMULA real grid_extinction(table t, int halves, real cx, real cy, real cz) {
   real nx = element(t, 0);
   real ny = element(t, 1);
   real i;
@@ -35,6 +35,7 @@ FORMULA real grid_extinction(table t, real cx, real cy, real cz) {
   grid_lookup_zero(cx, nx, i, u);
   grid_lookup_zero(cy, ny, j, v);
   grid_lookup_zero(cz, element(t, 2), k, w);
+  if (halves != 0) return weighted_half_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
   return weighted_cell(t + 3, i + 1.0, j + 1.0, k + 1.0, nx + 2.0, ny + 2.0, u, v, w);
 }
 

@@ -46,10 +46,10 @@ class Hash {
   void add(const RayNoise& n) { add(n.amplitude), add(n.scale), add(n.offset); }
   void add(const GridDensity& g) {
     for (const glm::vec4& row : g.cells) add(row);
-    add(g.size), add(g.albedo);
+    add(g.size), add(g.albedo), add(g.half_unit);
   }
   void add(const DepthVolume& d) {
-    add(d.kind), add(d.first), add(d.scale), add(d.nodes);
+    add(d.kind), add(d.first), add(d.scale), add(d.nodes), add(d.halves);
     for (const glm::vec4& row : d.rows) add(row);
   }
   template <class T>

@@ -13,13 +13,14 @@ constexpr std::size_t most_floats = std::size_t{1} << 28U;  // of all volumes of
 
 }  // namespace
 
-Buffer add_density_injection(FramePlan& frame, const MediumBox& box, const Density& all, std::uint32_t id) {
-  const Buffer extinction{{id}, sizeof(float) * voxel_table_floats(box.cells)};
+Buffer add_density_injection(FramePlan& frame, const MediumBox& box, const Density& all, float half_unit, std::uint32_t id) {
+  const Buffer extinction{{id}, sizeof(float) * voxel_table_floats(box.cells, half_unit > 0)};
   frame.plan.steps.push_back({DensityInjection{.gaussians = all.gaussians,
                                                .voxels = all.voxels,
                                                .grid = all.grid,
                                                .size = box.cells,
                                                .cell = static_cast<float>(box.cell),
+                                               .half_unit = half_unit,
                                                .extinction = extinction},
                               "the medium's extinction on a grid"});
   return extinction;
@@ -31,7 +32,9 @@ LightVolumes add_light_volumes(FramePlan& frame, const MediumBox& box, const Dep
   for (std::size_t k = 0; k < frame.lights.size(); ++k) {
     const LightSource& source = frame.scene.lights[frame.light_index[k]];
     const auto placed = [&](const glm::dvec3& origin) {
-      return steps.cells ? cell_volume(box, origin) : depth_volume(box, source, origin);
+      DepthVolume v = steps.cells ? cell_volume(box, origin) : depth_volume(box, source, origin);
+      v.halves = steps.halves;
+      return v;
     };
     const DepthVolume volume = placed(box.corner);
     floats += volume.floats();

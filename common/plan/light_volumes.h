@@ -23,14 +23,15 @@ struct LightVolumes {
   std::vector<DepthVolume> volumes;
 };
 
-// The step that puts `all`, seen from the box's corner, on the box's grid.
-Buffer add_density_injection(FramePlan&, const MediumBox&, const Density& all, std::uint32_t id);
+// The step that puts `all`, seen from the box's corner, on the box's grid. half_unit: GridDensity's.
+Buffer add_density_injection(FramePlan&, const MediumBox&, const Density& all, float half_unit, std::uint32_t id);
 
 struct DepthSteps {
   Density from;  // seen from the box's corner
   bool cells;    // the volumes are those of the box's cells, and `from` is its grid
   DepthScheme scheme = DepthScheme::upwind;
   int samples = 1;                  // of the grid between two nodes of a ray
+  bool halves = false;              // DepthVolume's
   std::size_t floats = 0;           // [float] of what else the plan keeps
   const char* knob = "resolution";  // which sets how fine they are
 };

@@ -114,7 +114,7 @@ class ParticleSampler {
         const glm::vec4& row = grid_.cells[axis];
         c[axis] = row.x * p.x + row.y * p.y + row.z * p.z + row.w;
       }
-      const auto extinction = static_cast<double>(f32::grid_extinction(voxels_.data(), c[0], c[1], c[2]).v);
+      const auto extinction = static_cast<double>(f32::grid_extinction(voxels_.data(), 0, c[0], c[1], c[2]).v);
       m.extinction += extinction;
       m.scattering += extinction * glm::dvec3(grid_.albedo);
     }

@@ -63,7 +63,7 @@ LightVolumes light_volumes(FramePlan& frame, const std::vector<GaussianDensity>&
   Density density{gaussians_of(frame.scene, box.corner), {}, {}};
   // A ray through many is looked up on a grid of the same cells.
   if (gaussians.size() > few_gaussians) {
-    const Buffer extinction = add_density_injection(frame, box, density, injected_id);
+    const Buffer extinction = add_density_injection(frame, box, density, 0, injected_id);
     density = {{}, extinction, box_density(box, glm::vec3(1), box.corner)};
   }
   return add_light_volumes(

@@ -46,6 +46,7 @@ struct VolumePlan {
   MediumBox box;
   bool cells;     // the volumes are those of the box's cells
   bool injected;  // rays are marched through them
+  bool halves;    // and what they and the volumes hold is kept in 16 bits
   Buffer native;  // the scene's grid
   Buffer extinction;
 
@@ -53,6 +54,8 @@ struct VolumePlan {
     const Medium& medium = scene.medium;
     box = medium_box(scene, static_cast<int>(knobs.number("resolution")));
     cells = knobs.choice("scheme") != "rays";
+    halves = knobs.choice("storage") == "half";
+    if (cells && halves) throw InputError("setting storage: \"half\" is for scheme=rays, expected float");
     const std::string_view density = knobs.choice("density");
     const bool can = holds_in_a_grid(medium);
     if (density == "volume" && !can)
@@ -64,7 +67,7 @@ struct VolumePlan {
       native = frame.plan.uploads.back().buffer;
     }
     if (box && (injected || (cells && !frame.lights.empty()))) {
-      extinction = add_density_injection(frame, box, as_given(box.corner), injected_id);
+      extinction = add_density_injection(frame, box, as_given(box.corner), half_unit(), injected_id);
     } else if (box) {
       frame.plan.skips.push_back(
           {"density_injection", medium.gaussians.size() <= few_gaussians
@@ -79,7 +82,20 @@ struct VolumePlan {
     if (scene.medium.grid) d.voxels = native, d.grid = grid_density(*scene.medium.grid, origin);
     return d;
   }
-  Density in_box(const glm::dvec3& origin) const { return {{}, extinction, box_density(box, grid_albedo(scene.medium), origin)}; }
+  // A power of 2: no extinction is above 2^14 of it, twice of which sharpened ones may have, and thin ones have all their digits.
+  float half_unit() const {
+    if (!halves) return 0;
+    double most = 0;
+    for (const Gaussian& g : scene.medium.gaussians) most += g.extinction;
+    if (const auto& grid = scene.medium.grid; grid && !grid->voxels->values.empty())
+      most += static_cast<double>(*std::max_element(grid->voxels->values.begin(), grid->voxels->values.end())) * grid->scale;
+    return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(std::max(most, 1e-30))) - 14, -100.0, 100.0)));
+  }
+  Density in_box(const glm::dvec3& origin) const {
+    Density d{{}, extinction, box_density(box, grid_albedo(scene.medium), origin)};
+    d.grid.half_unit = half_unit();
+    return d;
+  }
   Density to_march() const { return injected ? in_box(scene.camera.position) : as_given(scene.camera.position); }
 
   // How many lookups between two nodes of a light's ray the grid is worth.
@@ -97,6 +113,7 @@ struct VolumePlan {
                               .cells = cells,
                               .scheme = knobs.choice("scheme") == "published" ? DepthScheme::published : DepthScheme::upwind,
                               .samples = samples(cells || injected),
+                              .halves = halves,
                               .floats = extinction.bytes / sizeof(float)},
                              depths_id);
   }
@@ -203,6 +220,12 @@ Technique opacity_propagation() {
        .meaning = "extinction along the rays: each Gaussian and the grid as it is, or all from one volume of that resolution",
        .sweep = {},
        .baselines = {"exact"}},
+      {.name = "storage",
+       .kind = Knob::Kind::choice,
+       .standard = "float",
+       .choices = {"float", "half"},
+       .meaning = "what volumes are kept in: 32 bits a value, or 16",
+       .sweep = {}},
       shadows_knob(),
       airlight_resolution_knob(),
       indirect_knob(),

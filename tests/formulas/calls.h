@@ -9,7 +9,7 @@ FORMULA real grid_value(table t, int clamped, real x, real y, real z, real size_
   real cx = grid_coordinate(x, size_x, nx);
   real cy = grid_coordinate(y, size_y, ny);
   real cz = grid_coordinate(z, size_z, nz);
-  if (clamped == 0) return grid_extinction(t, cx, cy, cz);
+  if (clamped == 0) return grid_extinction(t, 0, cx, cy, cz);
   real i;
   real j;
   real k;
@@ -137,7 +137,8 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
     r[0] = step_phase(kind, g, a[0], a[1], sqrt(fma(a[0], a[0], a[2] * a[2])), sqrt(fma(a[1], a[1], a[2] * a[2])), a[2]);
   }
   if (formula == 32) r[0] = step_transmittance(a[0], a[1], a[2], a[3]);
-  if (formula == 40) r[0] = depth_in_volume(t, kind, a[0], a[1], a[2]);
+  if (formula == 49) r[0] = weighted_half_cell(t + 1, a[0], a[1], a[2], real(31.0), real(32.0), a[3], a[4], a[5]);
+  if (formula == 40) r[0] = depth_in_volume(t, kind, 0, a[0], a[1], a[2]);
   if (formula == 41) {
     real face = cube_face(a[0], a[1], a[2], r[0], r[1], r[2]);
     r[0] = select(face < 6.0, r[0], real(1e30));

@@ -50,8 +50,8 @@ Case looked_up_lights(Extent e) {
   return frame(torus_among_gaussians(), e, gaussian_airlight(),
                {{"samples", "2"}, {"light_path", "volume"}, {"light_cells", "1"}});
 }
-Case propagated(Extent e, const char* density, const char* scheme) {
-  const Set set{{"resolution", "12"}, {"steps", "6"}, {"density", density}, {"scheme", scheme}};
+Case propagated(Extent e, const char* density, const char* scheme, const char* storage = "float") {
+  const Set set{{"resolution", "12"}, {"steps", "6"}, {"density", density}, {"scheme", scheme}, {"storage", storage}};
   return frame(torus_among_gaussians(), e, opacity_propagation(), set);
 }
 Case sampled(Extent e, const Technique& technique, const char* resolution, Set set) {
@@ -79,6 +79,7 @@ std::span<const NamedCase> frame_cases() {
          return sampled(e, marching(), "quarter", {{"steps", "6"}, {"shadows", "off"}});
        }},
       {"frame/propagated", [](Extent e) { return propagated(e, "exact", "rays"); }},
+      {"frame/propagated_in_halves", [](Extent e) { return propagated(e, "volume", "rays", "half"); }},
       {"frame/propagated_in_cells", [](Extent e) { return propagated(e, "volume", "upwind"); }}};
   return cases;
 }

@@ -50,13 +50,13 @@ struct Volume {
       const glm::dvec4 row(shape.rows[i]);
       q[i] = f32::Float(glm::dot(glm::dvec3(row), p) + row.w);
     }
-    return f32::depth_in_volume(table.data(), static_cast<int>(shape.kind), q[0], q[1], q[2]).v;
+    return f32::depth_in_volume(table.data(), static_cast<int>(shape.kind), shape.halves ? 1 : 0, q[0], q[1], q[2]).v;
   }
 };
 
 enum class Scheme { rays, rays_through_volume, upwind, published };
 
-Volume propagate(const Scene& scene, const MediumBox& box, const LightSource& light, Scheme scheme) {
+Volume propagate(const Scene& scene, const MediumBox& box, const LightSource& light, Scheme scheme, bool halves) {
   const bool cells = scheme == Scheme::upwind || scheme == Scheme::published;
   std::vector<Step> steps;
   OpticalDepthPropagation p;
@@ -66,15 +66,18 @@ Volume propagate(const Scene& scene, const MediumBox& box, const LightSource& li
     injection.gaussians = p.gaussians;
     injection.size = box.cells;
     injection.cell = static_cast<float>(box.cell);
-    injection.extinction = {{1}, sizeof(float) * voxel_table_floats(box.cells)};
+    injection.half_unit = halves ? static_cast<float>(std::exp2(-std::round(std::log2(box.cell)))) : 0;
+    injection.extinction = {{1}, sizeof(float) * voxel_table_floats(box.cells, halves)};
     p.gaussians.clear();
     p.voxels = injection.extinction;
     p.grid = box_density(box, glm::vec3(1), box.corner);
+    p.grid.half_unit = injection.half_unit;
     p.samples = 2;
     steps.push_back({injection, ""});
   }
   p.light = light_of(light, box.corner);
   p.volume = cells ? cell_volume(box, box.corner) : depth_volume(box, light, box.corner);
+  p.volume.halves = halves;
   p.scheme = scheme == Scheme::published ? DepthScheme::published : DepthScheme::upwind;
   p.depths = {{2}, sizeof(float) * p.volume.floats()};
   steps.push_back({p, ""});
@@ -88,9 +91,9 @@ Volume propagate(const Scene& scene, const MediumBox& box, const LightSource& li
 }
 
 // Root mean square over the box's cells, beside that of the depth.
-double relative_error(const Scene& scene, const LightSource& light, int resolution, Scheme scheme) {
+double relative_error(const Scene& scene, const LightSource& light, int resolution, Scheme scheme, bool halves = false) {
   const MediumBox box = medium_box(scene, resolution);
-  const Volume volume = propagate(scene, box, light, scheme);
+  const Volume volume = propagate(scene, box, light, scheme, halves);
   double error = 0, all = 0;
   for (int n = 0; n < 4000; ++n) {
     const auto i = static_cast<std::uint32_t>(n);
@@ -143,6 +146,47 @@ TEST(DepthVolumes, AreRightWhereverTheLightIs) {
       EXPECT_LT(errors[1][2], errors[0][2]) << "the consistent scheme converges";
       EXPECT_LT(errors[1][1], errors[1][2]);
     }
+  }
+}
+
+// At the centre of a cell, in the middle of its faces and at its corners no scheme divides by nothing or takes a neighbour that
+// the light does not shine through.
+TEST(DepthVolumes, AreRightWithLightsOnCells) {
+  const Scene scene = blobs(40);
+  const MediumBox box = medium_box(scene, 32);
+  for (const glm::dvec3 part : {glm::dvec3(0.5), glm::dvec3(0, 0.5, 0.5), glm::dvec3(0.5, 0, 0.5), glm::dvec3(0.5, 0.5, 0),
+                                glm::dvec3(0, 0, 0.5), glm::dvec3(0)}) {
+    const LightSource light = light_at(box.corner + (glm::dvec3(14, 17, 15) + part) * box.cell);
+    const LightSource beside = light_at(light.position + glm::dvec3(0.23, 0.31, 0.17) * box.cell);
+    double errors[4];
+    for (const Scheme scheme : {Scheme::rays, Scheme::rays_through_volume, Scheme::upwind, Scheme::published})
+      errors[static_cast<int>(scheme)] = relative_error(scene, light, 32, scheme);
+    const double upwind = relative_error(scene, beside, 32, Scheme::upwind);
+    std::printf(
+        "%g, %g, %g of a cell: rays %.3f %%, through a volume %.3f %%, upwind %.2f %% (beside it %.2f %%), published %.1f %%\n",
+        part.x, part.y, part.z, 100 * errors[0], 100 * errors[1], 100 * errors[2], 100 * upwind, 100 * errors[3]);
+    for (const int n : {0, 1}) EXPECT_FALSE(!(errors[n] < tolerance("depth_volume_32")));
+    EXPECT_FALSE(!(errors[2] < 2 * upwind));
+    EXPECT_TRUE(std::isfinite(errors[3]));
+  }
+}
+
+// What 16 bits a value add: at most 2^-11 of each.
+TEST(DepthVolumes, AreRightInHalves) {
+  const Scene scene = blobs(40);
+  for (const Placed& placed : lights()) {
+    std::printf("in 16 bits, light %-14s", placed.name);
+    for (const int resolution : {32, 64}) {
+      for (const Scheme scheme : {Scheme::rays, Scheme::rays_through_volume}) {
+        const double whole = relative_error(scene, placed.light, resolution, scheme);
+        const double error = relative_error(scene, placed.light, resolution, scheme, true);
+        std::printf(" %d^3: %.4f %% (%.4f %%)", resolution, 100 * error, 100 * whole);
+        EXPECT_FALSE(!(error < tolerance(resolution == 32 ? "depth_volume_32" : "depth_volume_64"))) << placed.name;
+        EXPECT_FALSE(!(error < whole + tolerance("depth_in_halves"))) << placed.name;
+        EXPECT_NE(error, whole) << placed.name;
+      }
+    }
+    std::printf("\n");
   }
 }
 

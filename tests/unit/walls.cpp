@@ -20,7 +20,7 @@ struct Room {
 // Top down: nothing knows what stands above it.
 const std::vector<Room>& rooms() {
   static const std::vector<Room> all{
-      {"common/formulas", {}},
+      {"common/formulas", {"common/half.h"}},
       {"common/error.h", {}},
       {"common/image.h", {}},
       {"common/random.h", {}},
@@ -28,7 +28,8 @@ const std::vector<Room>& rooms() {
       {"common/stats.h", {}},
       {"common/relative_rmse.h", {}},
       {"common/progress.h", {"common/error.h"}},
-      {"common/algorithms", {"common/image.h"}},
+      {"common/half.h", {}},
+      {"common/algorithms", {"common/half.h", "common/image.h"}},
       {"common/backend.h", {"common/algorithms", "common/progress.h", "common/stats.h"}},
       {"common/scene", {"common/algorithms", "common/error.h", "common/image.h", "common/progress.h", "common/spelling.h"}},
       {"common/plan",
@@ -44,11 +45,11 @@ const std::vector<Room>& rooms() {
        {"common/algorithms/view.h", "common/error.h", "common/formulas", "common/image.h", "common/plan/plan.h",
         "common/plan/image_names.h", "common/progress.h", "common/random.h", "common/scene", "common/stats.h"}},
       {"cpu",
-       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/image.h", "common/plan",
-        "common/progress.h", "common/stats.h"}},
+       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/half.h", "common/image.h",
+        "common/plan", "common/progress.h", "common/stats.h"}},
       {"gpu",
-       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/image.h", "common/plan",
-        "common/progress.h", "common/stats.h"}},
+       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/half.h", "common/image.h",
+        "common/plan", "common/progress.h", "common/stats.h"}},
       {"app", {"common", "cpu/backend.h", "cpu/parallel.h", "cpu/targets.h", "cpu/tile.h", "gpu/backend.h", "gpu/context.h"}},
   };
   return all;

@@ -71,6 +71,7 @@ enum class Formula : int {
   surface_airlight = 47,    // lambda, s -> of a point light, of a directional one; the table is one of surface_airlight_tables()
   source_in_volume = 46,    // place; the table as source_in_volume() takes it; the phase's kind is the channel
   exp2 = 48,                // x
+  half_cell = 49,           // lower corner, weights; the table: a float, then halves, 31 and 32 along x and y
   upsampled = 60,           // four samples, four bends, u, v -> value, what bends of that size add at most
   bend_between = 61,        // before, a, b, after, whether there is one before, after (1 or 0) -> bend, size
   depth_fit = 62,           // inverse distance, of the sample, tolerance

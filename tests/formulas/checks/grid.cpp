@@ -1,6 +1,7 @@
 // Voxel grids, against their definition: a value at each voxel's centre, linear between centres, an axis at a time.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "tests/formulas/checks/random.h"
 
@@ -193,6 +194,55 @@ Measured measure_bound(const Run& run) {
   return m;
 }
 
+// All halves that are not negative and finite, in a box that they fill: each as it stands, and between eight. Beside the
+// largest of these.
+Measured measure_halves(const Run& run) {
+  constexpr int width = 31, height = 32, count = width * height * 32;
+  static_assert(count == 0x7c00);
+  // Neighbours of all sizes: a step that meets every number once.
+  const auto bits = [](int i) { return static_cast<std::uint32_t>(i * 1003L % count); };
+  const auto value = [&](int i) {
+    const auto exponent = static_cast<int>(bits(i) >> 10U), mantissa = static_cast<int>(bits(i) & 0x3ffU);
+    return exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+  };
+  std::vector<float> table{0};
+  for (int i = 0; i < count; i += 2) table.push_back(std::bit_cast<float>(bits(i) | bits(i + 1) << 16U));
+  table.resize(table.size() + width * (height + 1), 0.0F);  // what weights of 0 are for
+  Random random(stream + 5);
+  Columns in;
+  for (int i = 0; i < count; ++i) add_call(in, i % width, i / width % height, i / width / height, 0, 0, 0);
+  for (int i = 0; i < 20000; ++i) {
+    add_call(in, std::floor(random.number(0, width - 1)), std::floor(random.number(0, height - 1)),
+             std::floor(random.number(0, 31)), random.number(), random.number(), random.number());
+  }
+  const Columns found = run({Formula::half_cell, in, {}, table});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    double truth = 0, largest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1;
+      int at = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int far = corner >> axis & 1;
+        const double w = in[3 + static_cast<std::size_t>(axis)][i];
+        weight *= far ? w : 1 - w;
+        at += (static_cast<int>(in[static_cast<std::size_t>(axis)][i]) + far) * (axis == 0   ? 1
+                                                                                 : axis == 1 ? width
+                                                                                             : width * height);
+      }
+      if (weight == 0) continue;
+      truth += weight * value(at);
+      largest = std::max(largest, value(at));
+    }
+    const double error = std::fabs(found[0][i] - truth);
+    const bool as_it_is = i < static_cast<std::size_t>(count);
+    m.add(as_it_is ? (error == 0 ? 0 : HUGE_VAL) : error / largest, [&] {
+      return place({{"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}, {"weight", in[3][i]}, {"truth", truth}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_grid_checks(std::vector<Check>& checks) {
@@ -203,6 +253,7 @@ void add_grid_checks(std::vector<Check>& checks) {
   checks.push_back({"grid_lookup_clamped", lookup(true), "geometry_double", "exact_float"});
   checks.push_back({"grid_bound", measure_bound, "exact_double", "exact_float"});
   checks.push_back({"grid_value_zero", value(false), "grid_value_double", "grid_value"});
+  checks.push_back({"half_cell", measure_halves, "grid_value_double", "grid_value"});
   checks.push_back({"grid_value_clamped", value(true), "grid_value_double", "grid_value"});
 }
 
