@@ -142,7 +142,7 @@ HWY_INLINE void GaussiansOnRay::extinctions(const GaussianPanels::Panel& p, cons
 
 // What is at `count` places.
 HWY_INLINE void GaussiansOnRay::locals(const GaussianPanels::Panel& p, const Real* t, std::size_t count, Local* here) const {
-  if (!one_albedo || emits) {
+  if (!one_albedo || emits || with_depths) {
     for (std::size_t n = 0; n < count; ++n) here[n] = local(p, t[n]);
     return;
   }

@@ -156,5 +156,42 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
 INSTANTIATE_TEST_SUITE_P(Truth, GaussianTruth, testing::ValuesIn(gaussian_scenes().begin(), gaussian_scenes().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// The CPU takes tiles that nothing shades in another way than those with shadows: here the left one of three.
+TEST(GaussianTiles, WithAndWithoutShadowsAreRight) {
+  Scene scene;
+  scene.camera.position = {0, 0, 8};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.vertical_fov = 8;
+  scene.medium.gaussians = {{.center = {-1.5, 0, 0}, .radius = 1, .extinction = 0.9},
+                            {.center = {0.2, 0.1, 0.5}, .radius = 0.8, .extinction = 1.1},
+                            {.center = {2, 0, -0.3}, .radius = 1, .extinction = 0.7}};
+  scene.lights = {point_light({4, 1.5, 0.5}, {9, 8, 7})};
+  scene.surfaces = {surface(box({2.6, 0.2, 0.1}, {2.9, 0.6, 0.5}), diffuse(0.5F, 0.5F, 0.5F), true)};
+  const Extent extent{160, 16};
+  NoProgress progress;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, Indirect::unbounded}, true, threads, progress);
+  for (const char* backend : {"cpu", "gl"}) {
+    RenderSettings settings;
+    settings.technique = "gaussian-airlight";
+    settings.resolution = extent;
+    settings.images = {"airlight"};
+    Renderer renderer({.backend = backend});
+    const HostImage airlight = renderer.render(scene, settings).image("airlight");
+    settings.knobs = {{"shadows", "off"}};
+    const HostImage unshadowed = renderer.render(scene, settings).image("airlight");
+    const double error = relative_error(airlight, truth, parts[2]).off_edges;
+    double left = 0, right = 0;  // what shadows take
+    for (int y = 0; y < extent.height; ++y) {
+      for (int x = 0; x < extent.width; ++x)
+        (x < 64 ? left : right) += static_cast<double>(unshadowed.at(x, y, 0) - airlight.at(x, y, 0));
+    }
+    std::printf("%-3s relative RMSE of the airlight %.5f %%; shadows take %.5f of the left tile, %.3f of the others\n", backend,
+                100 * error, left, right);
+    EXPECT_FALSE(!(error < tolerance("truth_gaussians"))) << backend;
+    EXPECT_LT(left, 0.01 * right) << "shadows reach the left tile, too";
+  }
+}
+
 }  // namespace
 }  // namespace airlight
