@@ -11,6 +11,7 @@
 #include "tests/tolerances.h"
 #include "tests/truth/gaussian_scenes.h"
 #include "tests/truth/relative_error.h"
+#include "tests/truth/scenes.h"
 
 namespace airlight {
 namespace {
