@@ -33,40 +33,35 @@ real weighted_patch(table t, real at, int stride, real a0, real a1, real a2, rea
                  fma(a2, weighted_row(p + 2 * stride, b0, b1, b2, b3), a3 * weighted_row(p + 3 * stride, b0, b1, b2, b3))));
 }
 
-// The value between eight neighbouring elements of a box, as common/formulas/README.md tells.
-real weighted_pair(int p, real u) { return fma(u, table_values[p + 1] - table_values[p], table_values[p]); }
-real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
-  int width = int(nx);
-  int layer = width * int(ny);
-  int p = t + int(x) + width * int(y) + layer * int(z);
-  real a = weighted_pair(p, u);
-  real near_layer = fma(v, weighted_pair(p + width, u) - a, a);
-  p += layer;
-  real b = weighted_pair(p, u);
-  real far_layer = fma(v, weighted_pair(p + width, u) - b, b);
-  return fma(w, far_layer - near_layer, near_layer);
-}
-
-// Half number p from the buffer's beginning, as common/half.h has it: an unpacked tiny one would be flushed to 0 on the way.
+// Element p of the buffer and the next; of halves, counted from its beginning, as common/half.h has them: an unpacked tiny one would be
+// flushed to 0 on the way.
 real half_value(int p) {
   int word = floatBitsToInt(table_values[p >> 1]);
   int bits = (word >> (16 * (p & 1))) & 0x7fff;
   return bits < 0x400 ? float(bits) * (1.0 / 16777216.0) : intBitsToFloat((bits << 13) + 0x38000000);
 }
-real weighted_half_pair(int p, real u) {
-  real a = half_value(p);
-  return fma(u, half_value(p + 1) - a, a);
+real weighted_pair(bool halves, int p, real u) {
+  real a = halves ? half_value(p) : table_values[p];
+  real b = halves ? half_value(p + 1) : table_values[p + 1];
+  return fma(u, b - a, a);
 }
-real weighted_half_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+// The value between eight neighbouring elements of a box, as common/formulas/README.md tells. `halves` is a constant.
+real weighted_cell_of(bool halves, int first, real x, real y, real z, real nx, real ny, real u, real v, real w) {
   int width = int(nx);
   int layer = width * int(ny);
-  int p = 2 * t + int(x) + width * int(y) + layer * int(z);
-  real a = weighted_half_pair(p, u);
-  real near_layer = fma(v, weighted_half_pair(p + width, u) - a, a);
+  int p = first + int(x) + width * int(y) + layer * int(z);
+  real a = weighted_pair(halves, p, u);
+  real near_layer = fma(v, weighted_pair(halves, p + width, u) - a, a);
   p += layer;
-  real b = weighted_half_pair(p, u);
-  real far_layer = fma(v, weighted_half_pair(p + width, u) - b, b);
+  real b = weighted_pair(halves, p, u);
+  real far_layer = fma(v, weighted_pair(halves, p + width, u) - b, b);
   return fma(w, far_layer - near_layer, near_layer);
+}
+real weighted_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(false, t, x, y, z, nx, ny, u, v, w);
+}
+real weighted_half_cell(table t, real x, real y, real z, real nx, real ny, real u, real v, real w) {
+  return weighted_cell_of(true, 2 * t, x, y, z, nx, ny, u, v, w);
 }
 
 #include "common/formulas/elementary.h"

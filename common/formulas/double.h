@@ -66,10 +66,12 @@ inline real atan_(real x) { return std::atan(x); }
 
 #include "common/formulas/formulas.h"
 
+#ifndef AIRLIGHT_EDITOR  // editor.h goes on with these words
 #undef FORMULA
 #undef OUT
 #undef IN_LIST
 #undef OUT_LIST
 #undef IN_OUT_LIST
 #undef EXACT
+#endif
 }  // namespace airlight::f64

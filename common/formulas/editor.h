@@ -1,14 +1,9 @@
-// What an editor reads before a formula file (.clangd in the root): the double build without that file.
+// What an editor reads before a formula file (.clangd in the root): the double build without that file, and its words.
 #pragma once
 
+#define AIRLIGHT_EDITOR
 #include "common/formulas/double.h"
 
-#define FORMULA inline
-#define OUT(type) type&
-#define IN_LIST(name, count) const real* name
-#define OUT_LIST(name, count) real* name
-#define IN_OUT_LIST(name, count) real* name
-#define EXACT
 // Not those of the C library.
 #define sqrt airlight::f64::sqrt
 #define abs airlight::f64::abs
