@@ -17,53 +17,21 @@
 namespace airlight {
 
 Knob indirect_knob() {
-  return {.name = "indirect",
-          .kind = Knob::Kind::choice,
-          .standard = "unbounded",
-          .least = 0,
-          .most = 0,
-          .choices = {"unbounded", "off", "mean_density", "psf"},
-          .meaning =
-              "light of lamps and suns scattered once on its way to surfaces, as of an unbounded medium without shadows: of "
-              "the homogeneous part; of the whole medium as if it were as dense everywhere as between light and surface, by "
-              "the same tables or by the point spread function of Zhou et al. for the isotropic phase function",
-          .sweep = {}};
+  return choice_knob(
+      "indirect", {"unbounded", "off", "mean_density", "psf"},
+      "light of lamps and suns scattered once on its way to surfaces, as of an unbounded medium without shadows: of the "
+      "homogeneous part; of the whole medium as if it were as dense everywhere as between light and surface, by the same tables "
+      "or by the point spread function of Zhou et al. for the isotropic phase function");
 }
 
 Knob table_nodes_knob() {
-  return {
-      .name = "table_nodes",
-      .kind = Knob::Kind::integer,
-      .standard = "64",
-      .least = 16,
-      .most = 128,
-      .choices = {},
-      .meaning =
-          "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
-      .sweep = {"16", "24", "32", "48", "64", "96", "128"}};
+  return integer_knob(
+      "table_nodes", "64", 16, 128,
+      "nodes an axis of the airlight tables (up to 4 times as many for a peaked phase): accuracy against time to make them",
+      {"16", "24", "32", "48", "64", "96", "128"});
 }
 
-Knob shadows_knob() {
-  return {.name = "shadows",
-          .kind = Knob::Kind::choice,
-          .standard = "on",
-          .least = 0,
-          .most = 0,
-          .choices = {"on", "off"},
-          .meaning = "shadows of the casters, in the medium and on surfaces",
-          .sweep = {}};
-}
-
-double surface_nanoseconds(const Scene& scene, Extent extent, bool shadows) {
-  double triangles = 0, casting = 0;
-  for (const Surface& s : scene.surfaces) {
-    const auto count = static_cast<double>(s.mesh->triangles.size());
-    triangles += count;
-    if (s.casts_shadow && shadows) casting += count;
-  }
-  const double pixels = static_cast<double>(extent.width) * extent.height, lights = static_cast<double>(scene.lights.size());
-  return pixels * (12 + (casting > 0 ? 40 * lights : 0)) + triangles * 100 + casting * lights * 150;
-}
+Knob shadows_knob() { return choice_knob("shadows", {"on", "off"}, "shadows of the casters, in the medium and on surfaces"); }
 
 FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
     : scene(s),

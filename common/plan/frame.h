@@ -36,9 +36,6 @@ Knob shadows_knob();
 // Why no technique lights the scene's surfaces by its environment, if so: what a grid attenuates of it is not known.
 std::optional<std::string> refuses_environment(const Scene&);
 
-// Thread nanoseconds that surfaces and shadows take, whatever the technique makes of the rays between; for estimates.
-double surface_nanoseconds(const Scene&, Extent, bool shadows);
-
 class FramePlan {
  public:
   // Begins the plan: its first step is SurfaceVisibility. Scene and request must outlive this object.
@@ -82,6 +79,9 @@ class FramePlan {
   // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is
   // added then. Before the step that makes `airlight`.
   void scatter_environment_in_fog_alone();
+  // The step with all that those along the view ray have in common filled in.
+  template <class Step>
+  Step along_view_ray() const;
   // Ends the plan: composes the image from `surface` and `airlight`.
   Plan finish();
 
@@ -112,5 +112,16 @@ class FramePlan {
   Image depth_toward_light_;  // as LightMarch makes it, where what it stands for scatters onto surfaces; else absent
   Image airlight_;            // with what the medium scatters of an environment; absent where that is nothing
 };
+
+template <class Step>
+Step FramePlan::along_view_ray() const {
+  Step s;
+  s.distance = distance, s.lights = lights, s.view = view, s.phase = scene.medium.phase;
+  s.extinction = extinction, s.sky_distance = sky_distance;
+  s.albedo = scene.medium.albedo, s.ambient = ambient, s.emission = scene.medium.emission;
+  s.airlight = airlight, s.per_light = per_light;
+  if constexpr (requires { s.transmittance; }) s.transmittance = transmittance, s.optical_depth = optical_depth;
+  return s;
+}
 
 }  // namespace airlight

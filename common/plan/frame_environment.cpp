@@ -15,41 +15,21 @@
 namespace airlight {
 
 Knob environment_knob() {
-  return {.name = "environment_airlight",
-          .kind = Knob::Kind::choice,
-          .standard = "on",
-          .least = 0,
-          .most = 0,
-          .choices = {"on", "published", "off"},
-          .meaning =
-              "an environment's light that the medium scatters once toward the camera: by the depths of each ray, as Zhou et al. "
-              "print it for the isotropic phase function, or none",
-          .sweep = {},
-          .baselines = {"published"}};
+  return choice_knob("environment_airlight", {"on", "published", "off"},
+                     "an environment's light that the medium scatters once toward the camera: by the depths of each ray, as Zhou "
+                     "et al. print it for the isotropic phase function, or none",
+                     {}, {"published"});
 }
 
 Knob environment_shadows_knob() {
-  return {
-      .name = "environment_shadows",
-      .kind = Knob::Kind::choice,
-      .standard = "on",
-      .least = 0,
-      .most = 0,
-      .choices = {"on", "off"},
-      .meaning =
-          "what casters hide of an environment from surfaces: found once for their geometry, kept beside the mesh by the program",
-      .sweep = {}};
+  return choice_knob(
+      "environment_shadows", {"on", "off"},
+      "what casters hide of an environment from surfaces: found once for their geometry, kept beside the mesh by the program");
 }
 
 Knob environment_rays_knob() {
-  return {.name = "environment_rays",
-          .kind = Knob::Kind::integer,
-          .standard = "256",
-          .least = 16,
-          .most = 65536,
-          .choices = {},
-          .meaning = "rays from each side of a vertex that find what casters hide of an environment",
-          .sweep = {}};
+  return integer_knob("environment_rays", "256", 16, 65536,
+                      "rays from each side of a vertex that find what casters hide of an environment");
 }
 
 std::optional<std::string> refuses_environment(const Scene& scene) {

@@ -13,16 +13,10 @@
 namespace airlight {
 
 Knob environment_indirect_knob() {
-  return {.name = "environment_indirect",
-          .kind = Knob::Kind::choice,
-          .standard = "off",
-          .least = 0,
-          .most = 0,
-          .choices = {"off", "on", "published"},
-          .meaning =
-              "an environment's light that the medium scatters once on its way to surfaces: none, by the mean depths of the "
-              "Gaussians about each point, or as Zhou et al. print it for the isotropic phase function, of Gaussians alone",
-          .sweep = {}};
+  return choice_knob(
+      "environment_indirect", {"off", "on", "published"},
+      "an environment's light that the medium scatters once on its way to surfaces: none, by the mean depths of the Gaussians "
+      "about each point, or as Zhou et al. print it for the isotropic phase function, of Gaussians alone");
 }
 
 // Of Gaussians, or of the grid: each counts as much as it holds.

@@ -38,6 +38,22 @@ bool fits(const Knob& knob, const std::string& value) {
 
 }  // namespace
 
+Knob integer_knob(std::string_view name, std::string_view standard, double least, double most, std::string_view meaning,
+                  std::vector<std::string_view> sweep) {
+  return {name, Knob::Kind::integer, standard, least, most, {}, meaning, std::move(sweep)};
+}
+
+Knob number_knob(std::string_view name, std::string_view standard, double least, double most, std::string_view meaning,
+                 std::vector<std::string_view> sweep) {
+  return {name, Knob::Kind::number, standard, least, most, {}, meaning, std::move(sweep)};
+}
+
+Knob choice_knob(std::string_view name, std::vector<std::string_view> choices, std::string_view meaning,
+                 std::vector<std::string_view> sweep, std::vector<std::string_view> baselines) {
+  const std::string_view standard = choices.front();
+  return {name, Knob::Kind::choice, standard, 0, 0, std::move(choices), meaning, std::move(sweep), std::move(baselines)};
+}
+
 KnobValues::KnobValues(std::span<const Knob> knobs, std::span<const std::pair<std::string, std::string>> set) {
   for (const Knob& knob : knobs) values_.emplace_back(knob.name, knob.standard);
   for (const auto& setting : set) {

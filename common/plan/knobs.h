@@ -23,6 +23,15 @@ struct Knob {
   std::vector<std::string_view> baselines = {};
 };
 
+// `least` and `most` may be set.
+Knob integer_knob(std::string_view name, std::string_view standard, double least, double most, std::string_view meaning,
+                  std::vector<std::string_view> sweep = {});
+Knob number_knob(std::string_view name, std::string_view standard, double least, double most, std::string_view meaning,
+                 std::vector<std::string_view> sweep = {});
+// The first of the choices is the standard.
+Knob choice_knob(std::string_view name, std::vector<std::string_view> choices, std::string_view meaning,
+                 std::vector<std::string_view> sweep = {}, std::vector<std::string_view> baselines = {});
+
 // The values of a technique's knobs. Throws InputError for an unknown knob (with a suggestion), a value out of its range.
 class KnobValues {
  public:

@@ -65,16 +65,9 @@ Image add_homogeneous(FramePlan& frame, RayMarch march, std::uint32_t first_id) 
 }  // namespace
 
 Knob splat_radius_knob() {
-  return {.name = "splat_radius",
-          .kind = Knob::Kind::number,
-          .standard = "0.8",
-          .least = 0.1,
-          .most = 10,
-          .choices = {},
-          .meaning =
-              "of image=splats: root of the mean square radius of a splat, beside the distance between particles, of 1024; of "
-              "others as the 6th root of their number",
-          .sweep = {}};
+  return number_knob("splat_radius", "0.8", 0.1, 10,
+                     "of image=splats: root of the mean square radius of a splat, beside the distance between particles, of "
+                     "1024; of others as the 6th root of their number");
 }
 
 std::vector<float> particle_splats(const std::vector<float>& particles, const NetworkFrame& frame, double mass, double radius,

@@ -104,27 +104,15 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
       to_light.push_back(add(depths_upload(id, shared(gaussians_of(scene, source.position)))));
     }
   }
-  frame.plan.steps.push_back({ProjectedGaussians{.distance = frame.distance,
-                                                 .tables = tables,
-                                                 .bins = bins,
-                                                 .to_camera = to_camera,
-                                                 .to_light = to_light,
-                                                 .light_to_camera = light_to_camera,
-                                                 .lights = frame.lights,
-                                                 .gaussians = gaussians,
-                                                 .view = frame.view,
-                                                 .phase = scene.medium.phase,
-                                                 .extinction = frame.extinction,
-                                                 .sky_distance = frame.sky_distance,
-                                                 .albedo = scene.medium.albedo,
-                                                 .ambient = frame.ambient,
-                                                 .emission = scene.medium.emission,
-                                                 .erf = erf,
-                                                 .airlight = frame.airlight,
-                                                 .per_light = frame.per_light,
-                                                 .transmittance = frame.transmittance,
-                                                 .optical_depth = frame.optical_depth},
-                              "light scattered once at each Gaussian's projection, as published"});
+  auto step = frame.along_view_ray<ProjectedGaussians>();
+  step.tables = tables;
+  step.bins = bins;
+  step.to_camera = to_camera;
+  step.to_light = to_light;
+  step.light_to_camera = light_to_camera;
+  step.gaussians = gaussians;
+  step.erf = erf;
+  frame.plan.steps.push_back({step, "light scattered once at each Gaussian's projection, as published"});
 }
 
 }  // namespace airlight

@@ -125,14 +125,8 @@ void sample(FramePlan& frame, const March whole, std::string_view why, int strid
 }  // namespace
 
 Knob airlight_resolution_knob() {
-  return {.name = "airlight_resolution",
-          .kind = Knob::Kind::choice,
-          .standard = "full",
-          .least = 0,
-          .most = 0,
-          .choices = {"full", "half", "quarter"},
-          .meaning = "of the airlight along each side; what samples around a pixel do not tell to about 1 % is computed for it",
-          .sweep = {}};
+  return choice_knob("airlight_resolution", {"full", "half", "quarter"},
+                     "of the airlight along each side; what samples around a pixel do not tell to about 1 % is computed for it");
 }
 
 void sample_airlight(FramePlan& frame, std::uint32_t first_id) {

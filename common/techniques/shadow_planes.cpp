@@ -1,9 +1,9 @@
 #include "common/techniques/shadow_planes.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/plan/frame.h"
+#include "common/techniques/estimates.h"
 
 namespace airlight {
 
@@ -59,40 +59,16 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   frame.shade(lit);  // section 3-C among it: light scattered once on its way to the surfaces
 
   // Section 3: light scattered once on its way along the view ray.
-  frame.plan.steps.push_back({HomogeneousAirlight{.distance = frame.distance,
-                                                  .tables = scattered ? Buffer{} : tables,
-                                                  .scattered = scattered,
-                                                  .lights = scattered_lights,
-                                                  .view = frame.view,
-                                                  .phase = medium.phase,
-                                                  .extinction = frame.extinction,
-                                                  .sky_distance = frame.sky_distance,
-                                                  .albedo = medium.albedo,
-                                                  .ambient = frame.ambient,
-                                                  .emission = medium.emission,
-                                                  .airlight = frame.airlight,
-                                                  .per_light = frame.per_light},
-                              "light scattered once along the view ray"});
+  auto step = frame.along_view_ray<HomogeneousAirlight>();
+  step.tables = scattered ? Buffer{} : tables;
+  step.scattered = scattered;
+  step.lights = scattered_lights;
+  frame.plan.steps.push_back({step, "light scattered once along the view ray"});
 
   // What this scene does not need.
   if (scatters && !tables) frame.plan.skips.push_back({"airlight tables", "no point light"});
   if (!scatters) frame.plan.skips.push_back({"airlight of the lights", "the medium scatters nothing"});
   return frame.finish();
-}
-
-// Fitted to the sweeps of docs/RESULTS.md. The error is that of single precision and, growing with the third power of their
-// coarseness, of the tables; pixels at edges are not counted. Time: thread nanoseconds a pixel, a triangle, and a pixel and
-// light.
-Estimate estimate(const Scene& scene, Extent extent, const KnobValues& knobs, int threads) {
-  const double coarseness = 64 / knobs.number("table_nodes"), lights = static_cast<double>(scene.lights.size());
-  const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                                   [](const Surface& one) { return one.casts_shadow && !one.mesh->triangles.empty(); });
-  const double pixels = static_cast<double>(extent.width) * extent.height;
-  const double nanoseconds = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * lights * 20;
-  const double seconds = 1e-9 * nanoseconds / threads;
-  // How far planes interleave is not known without rendering them.
-  if (casters && knobs.choice("shadows") == "published") return {std::numeric_limits<double>::infinity(), seconds};
-  return {1e-4 + 5e-5 * coarseness * coarseness * coarseness, seconds};
 }
 
 }  // namespace
@@ -101,26 +77,19 @@ Technique shadow_planes() {
   Technique t;
   t.name = "shadow-planes";
   t.summary = "analytic single scattering and exact shadows in homogeneous fog (Biri et al. 2006)";
-  t.knobs = {
-      table_nodes_knob(),
-      {.name = "shadows",
-       .kind = Knob::Kind::choice,
-       .standard = "on",
-       .least = 0,
-       .most = 0,
-       .choices = {"on", "published", "off"},
-       .meaning = "shadows of the casters, in the medium and on surfaces; published: planes sorted as wholes, as the paper does, "
-                  "wrong where they interleave",
-       .sweep = {},
-       .baselines = {"published"}},
-      indirect_knob(),
-      environment_knob(),
-      environment_indirect_knob(),
-      environment_shadows_knob(),
-      environment_rays_knob()};
+  t.knobs = {table_nodes_knob(),
+             choice_knob("shadows", {"on", "published", "off"},
+                         "shadows of the casters, in the medium and on surfaces; published: planes sorted as wholes, as the "
+                         "paper does, wrong where they interleave",
+                         {}, {"published"}),
+             indirect_knob(),
+             environment_knob(),
+             environment_indirect_knob(),
+             environment_shadows_knob(),
+             environment_rays_knob()};
   t.refuses = refuses;
   t.plan = plan;
-  t.estimate = estimate;
+  t.estimate = estimate_shadow_planes;
   return t;
 }
 

@@ -21,12 +21,12 @@ if(NOT told MATCHES "^airlight [0-9]")
   message(FATAL_ERROR "the installed program does not run: ${told}")
 endif()
 
-# HACKING.md shows this program.
-file(READ ${SOURCE}/HACKING.md told)
+# docs/library.md shows this program.
+file(READ ${SOURCE}/docs/library.md told)
 file(READ ${SOURCE}/tests/consumer/main.cpp program)
 string(FIND "${program}" "#include <cstdio>" start)
 string(SUBSTRING "${program}" ${start} -1 program)
 string(FIND "${told}" "${program}" found)
 if(found LESS 0)
-  message(FATAL_ERROR "the example in HACKING.md is not tests/consumer/main.cpp")
+  message(FATAL_ERROR "the example in docs/library.md is not tests/consumer/main.cpp")
 endif()

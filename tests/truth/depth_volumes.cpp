@@ -2,6 +2,8 @@
 // by which scheme.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "cpu/backend.h"
 #include "tests/parity/inputs.h"
 #include "tests/tolerances.h"
+#include "tests/truth/optical_depth_table.h"
 
 namespace airlight {
 namespace {
@@ -168,6 +171,35 @@ TEST(DepthVolumes, AreRightWithLightsOnCells) {
     for (const int n : {0, 1}) EXPECT_FALSE(!(errors[n] < tolerance("depth_volume_32")));
     EXPECT_FALSE(!(errors[2] < 2 * upwind));
     EXPECT_TRUE(std::isfinite(errors[3]));
+  }
+}
+
+// The light at one end of the table's ways, what is looked up at the other; beside the lines through the centres, of which a way
+// far from all has next to nothing.
+TEST(DepthVolumes, AreRightOnTheTable) {
+  for (const int resolution : {32, 64, 128}) {
+    double sum = 0, worst = 0;
+    int resolved = 0;
+    const std::vector<WayThroughGaussians> ways = optical_depth_table();
+    for (const WayThroughGaussians& way : ways) {
+      Scene scene;
+      scene.medium.gaussians = way.gaussians;
+      const MediumBox box = medium_box(scene, resolution);
+      double smallest = way.gaussians.front().radius;
+      for (const Gaussian& g : way.gaussians) smallest = std::min(smallest, g.radius);
+      if (smallest < 3 * box.cell) continue;
+      const Volume volume = propagate(scene, box, light_at(way.from), Scheme::rays, false);
+      const double found = static_cast<double>(volume.at(way.to - box.corner));
+      const double error = std::fabs(found - way.optical_depth) / lines_through_centers(way.gaussians);
+      sum += error * error;
+      worst = std::max(worst, error);
+      ++resolved;
+    }
+    const double mean = std::sqrt(sum / resolved);
+    std::printf("optical_depth.csv, %d^3: %d of %zu ways with radii of three cells, RMS %.4f %%, largest %.4f %%\n", resolution,
+                resolved, ways.size(), 100 * mean, 100 * worst);
+    EXPECT_GT(resolved, 10);
+    EXPECT_FALSE(!(mean < tolerance(resolution == 32 ? "depth_volume_32" : "depth_volume_64")));
   }
 }
 

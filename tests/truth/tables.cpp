@@ -6,54 +6,30 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <map>
-#include <numbers>
-#include <sstream>
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
 #include "tests/csv.h"
 #include "tests/tolerances.h"
+#include "tests/truth/optical_depth_table.h"
 #include "tests/truth/scenes.h"
 
 namespace airlight {
 namespace {
 
-glm::dvec3 point_of(const std::string& text) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  glm::dvec3 p;
-  in >> p.x >> p.y >> p.z;
-  return p;
-}
-
-std::vector<Gaussian> gaussians_of(const std::string& text) {
-  std::vector<Gaussian> gaussians;
-  for (const std::string& one : split(text, ';')) {
-    std::istringstream in(one);
-    in.imbue(std::locale::classic());
-    Gaussian g;
-    double a = 0;
-    in >> g.center.x >> g.center.y >> g.center.z >> a >> g.extinction;
-    g.radius = 1 / a;
-    gaussians.push_back(g);
-  }
-  return gaussians;
-}
-
 double relative_error(double value, double expected) { return std::fabs(value - expected) / std::fabs(expected); }
 
 TEST(Tables, OpticalDepth) {
   double worst = 0;
-  for (const auto& row : csv_rows("reference/optical_depth.csv")) {
-    ASSERT_EQ(row.size(), 4U);
-    const double expected = std::stod(row[3]);
-    const double value = optical_depth(gaussians_of(row[2]), point_of(row[0]), point_of(row[1]));
+  for (const WayThroughGaussians& way : optical_depth_table()) {
+    const double expected = way.optical_depth;
+    const double value = optical_depth(way.gaussians, way.from, way.to);
     if (expected < 1e-30) {
-      EXPECT_FALSE(!(std::fabs(value - expected) <= 1e-30)) << row[0];
+      EXPECT_FALSE(!(std::fabs(value - expected) <= 1e-30));
       continue;
     }
     const double error = relative_error(value, expected);
-    EXPECT_FALSE(!(error <= 1e-11)) << row[0] << ": " << value << " instead of " << expected;
+    EXPECT_FALSE(!(error <= 1e-11)) << value << " instead of " << expected;
     worst = std::max(worst, error);
   }
   std::printf("optical_depth.csv: largest relative error %.2g\n", worst);
@@ -65,23 +41,19 @@ TEST(Tables, OpticalDepthRendered) {
     Renderer renderer({.backend = backend});
     double worst = 0;
     int rows = 0;
-    for (const auto& row : csv_rows("reference/optical_depth.csv")) {
-      const glm::dvec3 from = point_of(row[0]), to = point_of(row[1]);
+    for (const auto& [from, to, gaussians, expected] : optical_depth_table()) {
       Scene scene;
       scene.camera = {.position = from, .look_at = to, .vertical_fov = 1, .resolution = {1, 1}};
       if (std::fabs(glm::normalize(to - from).y) > 0.99) scene.camera.up = {1, 0, 0};
       scene.sky_distance = glm::distance(from, to);
-      scene.medium.gaussians = gaussians_of(row[2]);
+      scene.medium.gaussians = gaussians;
       RenderSettings settings;
       settings.technique = "gaussian-airlight";
       settings.knobs = {{"lost_depth", "1e-5"}};
       settings.images = {"optical_depth"};
       const double value = static_cast<double>(renderer.render(scene, settings).image("optical_depth").at(0, 0));
-      double whole = 0;  // of all lines through the centres
-      for (const Gaussian& g : scene.medium.gaussians) whole += g.extinction * g.radius * std::sqrt(std::numbers::pi);
-      const double error = std::fabs(value - std::stod(row[3])) / whole;
-      EXPECT_FALSE(!(error < tolerance("rendered_optical_depth")))
-          << backend << ' ' << row[0] << ": " << value << " instead of " << row[3];
+      const double error = std::fabs(value - expected) / lines_through_centers(gaussians);
+      EXPECT_FALSE(!(error < tolerance("rendered_optical_depth"))) << backend << ": " << value << " instead of " << expected;
       worst = std::max(worst, error);
       ++rows;
     }

@@ -1,0 +1,155 @@
+#include "common/plan/network_steps.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+
+#include "common/algorithms/particle_light.h"
+#include "common/algorithms/source_function.h"
+#include "common/algorithms/visibility_network.h"
+#include "common/error.h"
+#include "common/plan/environment.h"
+#include "common/plan/hash.h"
+#include "common/plan/upload.h"
+#include "common/plan/voxels.h"
+
+namespace airlight {
+
+namespace {
+
+int window_of(int particles) {
+  int side = 1;  // the nearest to the cube root: lists of that length
+  while (side * side * side + (side + 1) * (side + 1) * (side + 1) < 2 * particles) ++side;
+  return side;
+}
+
+// Throws InputError where the steps would hand on more than 2 GiB, of which the CPU takes about three times as much in all; then
+// every index fits 32 bits, too.
+void refuse_size(int particles, std::size_t directions, std::size_t floats) {
+  constexpr std::size_t most_floats = std::size_t{1} << 29U;
+  if (floats > most_floats)
+    throw InputError("setting particles: the network of " + std::to_string(particles) + " particles and " +
+                     std::to_string(directions) + " directions would take " + std::to_string(floats >> 18U) +
+                     " MiB, expected at most " + std::to_string(most_floats >> 18U));
+}
+
+}  // namespace
+
+NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uint32_t first_id) {
+  const std::uint32_t particles_id = first_id, links_id = first_id + 2, first_light_id = first_id + 3,
+                      particle_sources_id = first_id + 4, residuals_id = first_id + 5, sources_id = first_id + 6,
+                      sky_id = first_id + 7;
+  const Scene& scene = frame.scene;
+  const KnobValues& knobs = frame.request.knobs;
+  const Medium& medium = scene.medium;
+  const int particles = static_cast<int>(knobs.number("particles"));
+  const int lines = (static_cast<int>(knobs.number("directions")) + 1) / 2, window = window_of(particles);
+  const int iterations = static_cast<int>(knobs.number("iterations"));
+  const DirectionSet set = knobs.choice("direction_set") == "random" ? DirectionSet::random : DirectionSet::fibonacci;
+  const MediumBox box = medium_box(scene, static_cast<int>(knobs.number("resolution")));
+  const NetworkFrame lattice = network_frame(box);
+  const auto unit = static_cast<float>(lattice.unit);
+  const bool isotropic = medium.phase.kind == PhaseKind::isotropic;
+  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id, set);
+  frame.plan.uploads.insert(frame.plan.uploads.end(), uploads.begin(), uploads.end());
+  const std::vector<GaussianDensity> gaussians = gaussians_of(scene, lattice.middle);
+  GridDensity grid;
+  if (medium.grid) grid = grid_density(*medium.grid, lattice.middle);
+  const auto bytes = [](std::size_t floats) { return sizeof(float) * floats; };
+
+  VisibilityNetwork network{.particles = uploads[0].buffer,
+                            .lines = uploads[1].buffer,
+                            .voxels = voxels,
+                            .gaussians = gaussians,
+                            .grid = grid,
+                            .particle_count = particles,
+                            .line_count = lines,
+                            .window = window,
+                            .unit = unit,
+                            .extinction = frame.extinction,
+                            .links = {}};
+  const std::size_t directions = 2 * static_cast<std::size_t>(lines);
+  const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
+  refuse_size(particles, directions, network.shape().links() + 2 * values);
+  network.links = {{links_id}, bytes(network.shape().links())};
+  frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
+
+  // Published and off are the other techniques' step and nothing.
+  Buffer sky;
+  if (scene.environment && knobs.choice("environment_airlight") == "on") {
+    Hash key;
+    key.add(std::string_view("network sky"));
+    key.add(environment_key(*scene.environment, {}));
+    key.add(lines);
+    key.add(static_cast<int>(set));
+    frame.plan.uploads.push_back(
+        table_upload({{sky_id}, bytes(8 * static_cast<std::size_t>(lines))}, key.value(),
+                     [environment = *scene.environment, lines, set] { return network_sky(environment, lines, set); }));
+    sky = frame.plan.uploads.back().buffer;
+    frame.scatter_environment_in_fog_alone();
+  }
+
+  ParticleLight light{.particles = network.particles,
+                      .lines = network.lines,
+                      .voxels = voxels,
+                      .lights = {},
+                      .gaussians = gaussians,
+                      .grid = grid,
+                      .phase = medium.phase,
+                      .particle_count = particles,
+                      .line_count = lines,
+                      .unit = unit,
+                      .extinction = frame.extinction,
+                      .first = {{first_light_id}, bytes(values)}};
+  for (const std::size_t index : frame.light_index) light.lights.push_back(light_of(scene.lights[index], lattice.middle));
+  frame.plan.steps.push_back({light, "what each particle scatters of the lights"});
+
+  const NetworkIteration iteration{.particles = network.particles,
+                                   .lines = network.lines,
+                                   .links = network.links,
+                                   .first = light.first,
+                                   .sky = sky,
+                                   .phase = medium.phase,
+                                   .particle_count = particles,
+                                   .line_count = lines,
+                                   .window = window,
+                                   .tolerance = static_cast<float>(knobs.number("tolerance")),
+                                   .iterations = iterations,
+                                   .sources = {{particle_sources_id}, bytes(values)},
+                                   .residuals = {{residuals_id}, sizeof(float) * (1 + static_cast<std::size_t>(iterations))}};
+  frame.plan.steps.push_back({iteration, "light from particle to particle, an order of scattering a round"});
+
+  NetworkPlan made;
+  made.lattice = lattice, made.particles = uploads[0], made.iteration = iteration;
+  if (splatted) {
+    frame.plan.skips.push_back({"source_function", "image = splats: the particles themselves are seen"});
+    return made;
+  }
+  SourceFunction source{.particles = network.particles,
+                        .lines = network.lines,
+                        .links = network.links,
+                        .particle_sources = iteration.sources,
+                        .sky = sky,
+                        .phase = medium.phase,
+                        .particle_count = particles,
+                        .line_count = lines,
+                        .window = window,
+                        .unit = unit,
+                        .sources = {}};
+  if (!isotropic) source.camera = scene.camera.position - lattice.middle;
+  // Finer than all of the medium would be: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
+  // most.
+  const MediumBox inner = medium_box(scene, static_cast<int>(knobs.number("resolution")), 0.01);
+  const glm::dvec3 corner = glm::floor((inner.corner - lattice.middle) / lattice.unit);
+  source.first = corner;
+  source.stride = static_cast<int>(std::ceil(inner.cell / lattice.unit));
+  source.nodes = glm::vec3(inner.cells + 1);
+  made.first = lattice.middle + corner * lattice.unit;
+  made.spacing = glm::dvec3(source.stride * lattice.unit);
+  source.sources = {{sources_id}, bytes(source.floats())};
+  frame.plan.steps.push_back({source, "what there is to scatter toward the camera, everywhere"});
+  made.sources = source.sources;
+  return made;
+}
+
+}  // namespace airlight
