@@ -16,7 +16,8 @@
 namespace airlight {
 namespace {
 
-void hold(const Scene& scene, Extent extent) {
+// `on_gl`: cells along an edge there, where all volumes have to fit into one buffer, of 128 MiB on some drivers.
+void hold(const Scene& scene, Extent extent, const char* on_gl = "64") {
   NoProgress progress;
   const int threads = static_cast<int>(std::thread::hardware_concurrency());
   const ReferenceFrame truth = reference_frame(scene, extent, {1e-5, true, Indirect::unbounded}, true, threads, progress);
@@ -25,6 +26,7 @@ void hold(const Scene& scene, Extent extent) {
     RenderSettings settings;
     settings.technique = "opacity-propagation";
     settings.resolution = extent;
+    if (backend == std::string("gl")) settings.knobs = {{"resolution", on_gl}};
     settings.images = {"beauty", "airlight"};
     const Frame frame = Renderer({.backend = backend}).render(scene, settings);
     const double beauty = relative_error(frame.image("beauty"), truth, parts[0]).off_edges;
@@ -42,14 +44,14 @@ TEST(OpacityPropagation, DozensOfLights) {
   scene.camera.look_at = {0, 0, 0};
   scene.medium.gaussians = {{.center = {-0.6, 0, 0}, .radius = 0.8, .extinction = 0.9},
                             {.center = {0.7, 0.3, -0.4}, .radius = 0.6, .extinction = 1.2}};
-  for (int i = 0; i < 44; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 44;
+  for (int i = 0; i < 28; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 28;
     scene.lights.push_back(point_light({2.6 * std::cos(angle), 0.7 * std::sin(3 * angle), 2.6 * std::sin(angle)},
                                        {1 + std::cos(angle), 1 + std::sin(angle), 0.2 + 0.1 * (i % 5)}));
   }
   for (int i = 0; i < 4; ++i)
     scene.lights.push_back(directional_light({std::cos(1.3 * i), -0.7, std::sin(1.3 * i)}, glm::dvec3(0.2 + 0.1 * i)));
-  hold(scene, {24, 18});
+  hold(scene, {12, 9}, "40");
 }
 
 TEST(OpacityPropagation, GridOfOneCell) {
