@@ -51,7 +51,7 @@ TEST(OpacityPropagation, DozensOfLights) {
   }
   for (int i = 0; i < 4; ++i)
     scene.lights.push_back(directional_light({std::cos(1.3 * i), -0.7, std::sin(1.3 * i)}, glm::dvec3(0.2 + 0.1 * i)));
-  hold(scene, {12, 9}, "40");
+  hold(scene, {8, 6}, "32");
 }
 
 TEST(OpacityPropagation, GridOfOneCell) {

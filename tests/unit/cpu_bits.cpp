@@ -51,10 +51,11 @@ std::string gtest_name(const testing::TestParamInfo<NamedCase>& info) {
 }
 
 TEST_P(Bits, SameOnEveryTargetAndThreadCount) {
-  const Case c = GetParam().make({200, 150});
+  const Case c = GetParam().make({136, 80});  // six tiles, four of them cut off
   const std::string expected = run(c, {.simd = Simd::scalar, .threads = 1, .fuse = false}).digest;
   for (const Simd simd : available_simd()) {
     for (const int threads : {1, 2, 3, 8}) {
+      if ((threads == 2 || threads == 3) && simd != available_simd().back()) continue;  // threads know nothing of lanes
       EXPECT_EQ(run(c, {.simd = simd, .threads = threads, .fuse = true}).digest, expected)
           << name_of(simd) << ", " << threads << " threads, fused";
     }
