@@ -11,6 +11,7 @@
 // (common/error.h) and leave every object usable. The caller's floating-point mode and GL context are restored.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@
 #include "common/error.h"
 #include "common/image.h"
 #include "common/progress.h"
+#include "common/rows.h"
 #include "common/scene/image_file.h"
 #include "common/scene/load.h"
 #include "common/scene/scene.h"
@@ -46,11 +48,13 @@ struct RenderSettings {
   Goal goal;                                               // chooses technique and knobs; then no knobs may be given
   std::optional<Extent> resolution;                        // instead of the camera's
   int supersample = 1;                                     // 1..16: n x n samples a pixel, averaged
-  std::vector<std::string> images{"beauty"};               // what to make: see image_names() in common/techniques/technique.h
+  // Of the image, which are made alone; those that it has not are left out. They have the bits that they have in the whole image.
+  Rows rows = {};
+  std::vector<std::string> images{"beauty"};  // what to make: see image_names() in common/techniques/technique.h
 };
 
 struct Frame {
-  std::vector<NamedImage> images;  // in the order asked for
+  std::vector<NamedImage> images;  // in the order asked for; as high as there are rows
   Stats stats;
   std::string technique;                                   // what ran
   std::vector<std::pair<std::string, std::string>> knobs;  // every knob with its value
@@ -69,6 +73,11 @@ class Renderer {
   // A second frame re-runs only the steps whose inputs changed.
   Frame render(const Scene&, const RenderSettings&, Progress&);
   Frame render(const Scene&, const RenderSettings&);
+
+  // Bands of settings.rows, from the top, the highest of which render() takes at most about so many bytes each: in images and the
+  // volumes that steps make, the frame's images among them; what the scene itself takes is not counted. Of 64 rows at least:
+  // where these take more it throws MachineError if `strictly`, and they are what is given else. Nothing is allocated.
+  std::vector<Rows> bands_within(const Scene&, const RenderSettings&, std::uint64_t bytes, bool strictly) const;
 
   std::string describe() const;
 

@@ -1,6 +1,8 @@
 // The commands of the program `airlight`, each in its own file. Each returns its exit code and throws what the library throws.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,22 +12,48 @@
 
 namespace airlight {
 
+// A part of a frame: a band of its rows (common/plan/rows.h).
+struct TileNumber {
+  int number = 1, count = 1;  // 1 <= number <= count
+};
+
 struct RenderCommand {
   std::string scene;
   std::string output;
   RendererOptions renderer;
   RenderSettings settings;
   std::vector<std::string> aovs;
-  std::string frames;   // "12", "0-47", "0-47x4" (every fourth), "all"; empty: the first, and names are taken as they are
-  bool resume = false;  // keep the frames that are there
+  std::string frames;  // "12", "0-47", "0-47x4" (every fourth), "all"; empty: the first, and names are taken as they are
+  std::optional<TileNumber> tile;       // of each frame it alone
+  bool resume = false;                  // keep the frames that are there
+  std::optional<std::uint64_t> memory;  // [byte] that rendering may take; else default_memory where that is possible
   ImageFileOptions file;
   std::string stats_file;  // empty: none
   bool stats = false;
   bool quiet = false;    // print nothing but errors and what is asked for
   bool explain = false;  // print what would run, before it runs
 };
+constexpr std::uint64_t default_memory = std::uint64_t{4} << 30U;
 int render(const RenderCommand&, Terminal&);
 int explain(const RenderCommand&, Terminal&);
+
+struct MergeCommand {
+  std::vector<std::string> tiles;
+  std::string output;
+  ImageFileOptions file;
+};
+int merge(const MergeCommand&, Terminal&);
+
+// Prints the commands that render the frames tile by tile, or merge the tiles, one a line.
+struct PlanCommand {
+  RenderCommand render;
+  std::string program;        // how it was called
+  std::string options;        // of rendering, as words of a shell, each after a space
+  std::string merge_options;  // those that whole pictures take alone
+  int tiles = 1;
+  bool merge = false;
+};
+int print_plan(const PlanCommand&);
 
 struct CompareCommand {
   std::string a, b;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/tile.h"
 #include "common/spelling.h"
 #include "common/techniques/technique.h"
 
@@ -51,6 +52,8 @@ constexpr const char* program_examples = R"(Examples
   airlight render smoke.json -o all.exr --technique reference --set max_bounces=1000000 --set paths=4096 --aov standard_error
   airlight compare fog.exr truth.exr --tolerance 0.001
   airlight explain fog.json
+  airlight plan lamp.json --frames 0-47 --tiles 4 -o lamp.####.exr
+  airlight merge fog.tile-1-of-2.exr fog.tile-2-of-2.exr -o fog.exr
 )";
 constexpr const char* render_examples = R"(Examples
   airlight render fog.json -o fog.exr --aov depth,airlight --stats
@@ -58,12 +61,31 @@ constexpr const char* render_examples = R"(Examples
   airlight render smoke.json -o smoke.exr --error 1%
   airlight render fog.json -o fog.exr --simd scalar --threads 1 --set table_nodes=128
   airlight render lamp.json --frames 0-47 -o lamp.####.exr --resume
+  airlight render fog.json --tile 2/8 -o fog.tile-2-of-8.exr
+  airlight render fog.json --resolution 16384x16384 -o large.exr --memory 2G
 EXR files hold every image asked for, in channels NAME.R ...; other formats get one file an image.
+)";
+
+constexpr const char* plan_examples = R"(Examples
+  airlight plan lamp.json --frames 0-47 --tiles 4 -o lamp.####.png >tiles
+  airlight plan lamp.json --frames 0-47 --tiles 4 -o lamp.####.png --merge >merges
+  parallel <tiles && parallel <merges
+Each line is a command by itself, in any order, on any machine that sees the files; a line that is run again keeps what is
+there. docs/farm.md shows GNU parallel and Slurm.
+)";
+constexpr const char* merge_examples = R"(Examples
+  airlight merge fog.tile-*-of-8.exr -o fog.exr
+  airlight merge fog.tile-*-of-8.exr -o fog.png --exposure 1
+The file has the bytes that rendering at once gives. Tiles of another scene, version or setting, gaps, overlaps and damaged files
+are refused.
 )";
 
 // What the command line gives as text.
 struct Flags {
   RenderCommand render;
+  PlanCommand plan;
+  MergeCommand merge;
+  std::optional<std::string> tile, memory;
   CompareCommand compare;
   std::string resolution, log_level = "warning", info_scene;
   std::vector<std::string> settings;
@@ -92,13 +114,22 @@ void add_scene_flags(CLI::App& command, Flags& f) {
   command.add_option("--supersample", f.render.settings.supersample, "n x n samples a pixel, 1 to 16")->capture_default_str();
 }
 
-void add_render_flags(CLI::App& command, Flags& f) {
-  RenderCommand& r = f.render;
-  command.add_option("-o,--output", r.output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")
+void add_tonemap_flags(CLI::App& command, ImageFileOptions& file) {
+  command.add_option("--exposure", file.exposure, "stops, for tone-mapped files")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str();
+  command.add_option("--tonemap", file.tonemap, "clip | reinhard, for tone-mapped files")->capture_default_str();
+}
+
+CLI::Option* add_output_flag(CLI::App& command, std::string& output) {
+  return command
+      .add_option("-o,--output", output, "image file: exr, pfm, tif, hdr (linear), png, jpg, bmp, tga, ppm (tone-mapped)")
       ->required();
-  command.add_option("--frames", r.frames,
-                     "of an animation: 12, 0-47, 0-47x4 (every fourth) or all; #### in names of outputs is the frame's number");
-  command.add_flag("--resume", r.resume, "keep the frames that are there, whole and of this scene and these settings");
+}
+
+// What runs where: the same on each line of a plan.
+void add_device_flags(CLI::App& command, Flags& f) {
+  RenderCommand& r = f.render;
   command.add_option("--backend", r.renderer.backend, "cpu | gl")->capture_default_str();
   command.add_option("--threads", r.renderer.threads, "threads of the CPU, 0: as many as there are")
       ->check(CLI::Range(0, 1024))
@@ -108,15 +139,29 @@ void add_render_flags(CLI::App& command, Flags& f) {
       .add_option("--gl-context", r.renderer.gl_context, "auto | osmesa | egl; auto is EGL where there is hardware, else OSMesa")
       ->capture_default_str();
   command.add_option("--gl-device", r.renderer.gl_device, "which EGL device")->check(CLI::Range(0, 1024))->capture_default_str();
-  command.add_option("--exposure", r.file.exposure, "stops, for tone-mapped files")
-      ->check(CLI::Range(-100.0, 100.0))
-      ->capture_default_str();
-  command.add_option("--tonemap", r.file.tonemap, "clip | reinhard, for tone-mapped files")->capture_default_str();
+  command.add_option("--memory", f.memory,
+                     "512M, 4G: for images and volumes; a larger image is rendered and written band by band, the same bytes. "
+                     "Unless said 4G, and more where 64 rows take more");
   r.renderer.transfer_files = true;
   command
       .add_flag("--transfer-files,!--no-transfer-files", r.renderer.transfer_files,
                 "keep what surfaces hide of an environment in files beside the meshes, and read them")
       ->default_str("true");
+}
+
+void add_frames_flag(CLI::App& command, RenderCommand& r) {
+  command.add_option("--frames", r.frames,
+                     "of an animation: 12, 0-47, 0-47x4 (every fourth) or all; #### in names of outputs is the frame's number");
+}
+
+void add_render_flags(CLI::App& command, Flags& f) {
+  RenderCommand& r = f.render;
+  add_output_flag(command, r.output);
+  add_frames_flag(command, r);
+  command.add_option("--tile", f.tile, "2/8: the second of eight bands of rows alone, as an EXR file for airlight merge");
+  command.add_flag("--resume", r.resume, "keep the frames that are there, whole and of this scene and these settings");
+  add_tonemap_flags(command, r.file);
+  add_device_flags(command, f);
   command.add_flag("--stats", r.stats, "print what each step took");
   command.add_option("--stats-json", r.stats_file, "write the same to a file");
   command.add_flag("--explain", r.explain, "print what runs, before it runs");
@@ -134,7 +179,7 @@ LogLevel level_of(const Flags& f) {
 
 // Names of the design that this version does not have: better an answer than "unknown".
 void refuse_later_versions(int argc, char** argv) {
-  constexpr std::array<std::string_view, 6> commands{"view", "edit", "fit", "convert", "plan", "merge"};
+  constexpr std::array<std::string_view, 4> commands{"view", "edit", "fit", "convert"};
   constexpr std::array<std::string_view, 1> flags{"--seed"};
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -143,6 +188,34 @@ void refuse_later_versions(int argc, char** argv) {
                                   [&](std::string_view f) { return word == f || word.starts_with(std::string(f) + "="); });
     if (command || flag) throw InputError(std::string(word.substr(0, word.find('='))) + ": not in this version");
   }
+}
+
+// "4G" in bytes.
+std::uint64_t memory_of(const std::string& text) {
+  unsigned amount = 0;
+  char unit = 0;
+  int used = 0;
+  const std::size_t power = std::sscanf(text.c_str(), "%6u%c%n", &amount, &unit, &used) == 2 ? std::string_view("KMG").find(unit)
+                                                                                             : std::string_view::npos;
+  if (power == std::string_view::npos || static_cast<std::size_t>(used) != text.size() || amount == 0)
+    throw InputError("--memory: expected a number and K, M or G, as 4G, found \"" + text + "\"");
+  return std::uint64_t{amount} << (10 * (power + 1));
+}
+
+// The options that were given, as words of a shell, but for those that differ from line to line.
+std::string given(const CLI::App& command, bool of_whole_pictures) {
+  std::string words;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool tone = name == "--exposure" || name == "--tonemap";
+    constexpr std::array<std::string_view, 5> own{"SCENE", "--output", "--frames", "--tiles", "--merge"};
+    if (option->count() == 0 || tone != of_whole_pictures || std::find(own.begin(), own.end(), name) != own.end()) continue;
+    for (const std::string& value : option->results()) {
+      const bool flag = option->get_expected_max() == 0;
+      words += " " + name + (flag ? "=" + value : " " + shell_word(value));
+    }
+  }
+  return words;
 }
 
 int run(int argc, char** argv) {
@@ -168,6 +241,21 @@ int run(int argc, char** argv) {
   compare_command->add_option("--tolerance", f.compare.tolerance, "largest relative RMSE")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  CLI::App* plan_command = program.add_subcommand(
+      "plan", "print the commands that render frames by tiles, or merge these, one a line, for many machines");
+  add_scene_flags(*plan_command, f);
+  add_output_flag(*plan_command, f.render.output);
+  add_frames_flag(*plan_command, f.render);
+  plan_command->add_option("--tiles", f.plan.tiles, "bands of rows a frame")->check(CLI::Range(1, 65535))->capture_default_str();
+  plan_command->add_flag("--merge", f.plan.merge, "print the commands that put the tiles together, for when all are there");
+  add_tonemap_flags(*plan_command, f.render.file);
+  add_device_flags(*plan_command, f);
+  plan_command->footer(plan_examples);
+  CLI::App* merge_command = program.add_subcommand("merge", "put tiles together to the picture that they are of");
+  merge_command->add_option("TILES", f.merge.tiles, "files of airlight render --tile")->required();
+  add_output_flag(*merge_command, f.merge.output);
+  add_tonemap_flags(*merge_command, f.merge.file);
+  merge_command->footer(merge_examples);
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
   info_command->add_option("SCENE", f.info_scene, "print what is in a scene instead, and how many frames it has");
 
@@ -183,9 +271,19 @@ int run(int argc, char** argv) {
   for (const std::string& s : f.settings) f.render.settings.knobs.push_back(setting_of(s));
   f.render.settings.goal = goal_of(f.error, f.budget);
   f.render.quiet = f.quiet;
+  if (f.tile) f.render.tile = tile_of(*f.tile);
+  if (f.memory) f.render.memory = memory_of(*f.memory);
   if (!f.resolution.empty()) f.render.settings.resolution = extent_of(f.resolution);
   if (*render_command) return render(f.render, terminal);
   if (*explain_command) return explain(f.render, terminal);
+  if (*plan_command) {
+    f.plan.render = f.render;
+    f.plan.program = argv[0];
+    f.plan.options = given(*plan_command, false);
+    f.plan.merge_options = given(*plan_command, true);
+    return print_plan(f.plan);
+  }
+  if (*merge_command) return merge(f.merge, terminal);
   if (*compare_command) return compare(f.compare);
   if (*info_command) return info(f.info_scene);
   return 2;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +10,10 @@
 
 #include "app/command.h"
 #include "app/sequence.h"
+#include "app/tile.h"
+#include "common/scene/image_format.h"
+#include "common/scene/image_writer.h"
+#include "common/scene/merge.h"
 #include "common/scene/temporary_file.h"
 
 namespace airlight {
@@ -47,8 +52,8 @@ std::string stats_json(const Frame& frame, const Times& times, const std::string
       residuals = fmt::format(", \"residuals\": [{}], \"left_out\": {}, \"converged\": {}", fmt::join(s.residuals, ", "),
                               std::isfinite(s.left_out) ? fmt::format("{}", s.left_out) : "null", s.converged);
     }
-    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"reused\": {}{}{} }}",
-                         steps.empty() ? "" : ",", quoted(s.name), s.seconds, s.items, s.reused, residuals, note);
+    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"bytes\": {}, \"reused\": {}{}{} }}",
+                         steps.empty() ? "" : ",", quoted(s.name), s.seconds, s.items, s.bytes, s.reused, residuals, note);
   }
   for (const auto& [name, value] : frame.knobs)
     knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
@@ -59,10 +64,37 @@ std::string stats_json(const Frame& frame, const Times& times, const std::string
       frame.stats.seconds, times.write, steps);
 }
 
+double mebibytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1U << 20U); }
+
+std::uint64_t most_held(const Stats& stats) {
+  std::uint64_t most = 0;
+  for (const StepStats& s : stats.steps) most = std::max(most, s.bytes);
+  return most;
+}
+
+// [byte] of physical memory that this process has had.
+std::uint64_t most_resident() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// Adds what a band of a frame took to what those before it took.
+void add(Stats& all, const Stats& band) {
+  all.seconds += band.seconds;
+  for (std::size_t i = 0; i < std::min(all.steps.size(), band.steps.size()); ++i) {
+    StepStats &sum = all.steps[i], step = band.steps[i];
+    sum.seconds += step.seconds;
+    sum.items += step.items;
+    sum.bytes = std::max(sum.bytes, step.bytes);
+  }
+}
+
 void print_stats(const Frame& frame, const Times& times) {
   fmt::print("{} on {}\n", frame.technique, frame.device);
   for (const StepStats& s : frame.stats.steps) {
-    fmt::print("  {:<24} {:>10.3f} ms  {:>10} items{}", s.name, 1e3 * s.seconds, s.items, s.reused ? "  reused" : "");
+    fmt::print("  {:<24} {:>10.3f} ms  {:>10} items {:>9.1f} MiB{}", s.name, 1e3 * s.seconds, s.items, mebibytes(s.bytes),
+               s.reused ? "  reused" : "");
     if (!s.residuals.empty()) {
       fmt::print("  {} rounds, the last changed {:.2g}, about {:.2g} are left out", s.residuals.size(), s.residuals.back(),
                  s.left_out);
@@ -72,6 +104,8 @@ void print_stats(const Frame& frame, const Times& times) {
   }
   fmt::print("  {:<24} {:>10.3f} ms\n", "all steps, wall time", 1e3 * frame.stats.seconds);
   fmt::print("load {:.3f} s, render {:.3f} s, write {:.3f} s\n", times.load, times.render, times.write);
+  fmt::print("at most {:.1f} MiB held by a step, {:.1f} MiB by the program\n", mebibytes(most_held(frame.stats)),
+             mebibytes(most_resident()));
 }
 
 // Nothing that changes from run to run, or with the number of threads and the SIMD target, which change no bit.
@@ -82,6 +116,7 @@ std::vector<std::pair<std::string, std::string>> metadata(const Scene& scene, co
                                                        {"airlight:supersample", std::to_string(c.settings.supersample)}};
   if (frame.technique != "reference") all.emplace_back("airlight:backend", c.renderer.backend);
   for (const auto& [name, value] : frame.knobs) all.emplace_back("airlight:set:" + name, value);
+  if (c.tile) all.emplace_back(tile_key, fmt::format("{}/{}", c.tile->number, c.tile->count));
   return all;
 }
 
@@ -124,23 +159,16 @@ class Sequence {
     terminal_.log(LogLevel::debug, plan);
 
     const std::string output = output_name(c_, c_.output, number);
+    const Extent extent = settings.resolution.value_or(scene.camera.resolution);
+    settings.rows = rows_of(c_.tile, extent.height);
     ImageFileOptions file = c_.file;
-    if (c_.resume) {
-      file.metadata = metadata(scene, planned_frame(scene, settings), c_);
-      const Extent extent = settings.resolution.value_or(scene.camera.resolution);
-      if (is_there(output, settings.images, extent, file, terminal_)) {
-        if (c_.stats) fmt::print("frame {}: kept\n", number);
-        return false;
-      }
+    file.metadata = metadata(scene, planned_frame(scene, settings), c_);
+    if (c_.resume && is_there(output, settings.images, extent, settings.rows, file, terminal_)) {
+      if (c_.stats) fmt::print("frame {}: kept\n", number);
+      return false;
     }
-    if (!renderer_) renderer_.emplace(c_.renderer);
-    const Frame frame = renderer_->render(scene, settings, progress_);
-    const Clock::time_point rendered = Clock::now();
-    times.render = seconds_between(loaded, rendered);
-
-    file.metadata = metadata(scene, frame, c_);
-    const std::vector<std::string> names = write_images(output, frame.images, file);
-    times.write = seconds_between(rendered, Clock::now());
+    std::vector<std::string> names;
+    const Frame frame = render_to(output, scene, settings, extent, file, times, names);
     for (const std::string& name : names) {
       terminal_.log(LogLevel::info,
                     fmt::format("{}: {} by {} on {}, {:.3f} s", name, c_.scene, frame.technique, frame.device, times.render));
@@ -154,6 +182,43 @@ class Sequence {
       stats.rename_to_target();
     }
     return true;
+  }
+
+  // Renders and writes the rows of the settings, as many at a time as there is memory for.
+  Frame render_to(const std::string& output, const Scene& scene, RenderSettings settings, Extent extent,
+                  const ImageFileOptions& file, Times& times, std::vector<std::string>& names) {
+    if (!renderer_) renderer_.emplace(c_.renderer);
+    const Clock::time_point start = Clock::now();
+    const Rows rows = settings.rows;
+    const std::vector<Rows> bands =
+        renderer_->bands_within(scene, settings, c_.memory.value_or(default_memory), c_.memory.has_value());
+    times.render = seconds_between(start, Clock::now());
+    std::optional<ImageWriter> writer;
+    Frame all;
+    for (const Rows band : bands) {
+      const Clock::time_point begin = Clock::now();
+      settings.rows = band;
+      Frame frame = renderer_->render(scene, settings, progress_);
+      const Clock::time_point rendered = Clock::now();
+      if (!writer) {
+        std::vector<ImageWriter::Layer> layers;
+        for (const NamedImage& image : frame.images) layers.push_back({image.name, image.image.channels});
+        writer.emplace(output, layers, extent, rows, file);
+      }
+      writer->write(frame.images);
+      times.render += seconds_between(begin, rendered);
+      times.write += seconds_between(rendered, Clock::now());
+      frame.images.clear();
+      if (band.first == rows.first) {
+        all = std::move(frame);
+      } else {
+        add(all.stats, frame.stats);
+      }
+    }
+    const Clock::time_point written = Clock::now();
+    names = writer->finish();
+    times.write += seconds_between(written, Clock::now());
+    return all;
   }
 
   // On standard output, where the last frame had something else to tell.
@@ -181,6 +246,8 @@ int render(const RenderCommand& c, Terminal& terminal) {
     if (std::find(settings.images.begin(), settings.images.end(), name) == settings.images.end()) settings.images.push_back(name);
   }
   check_image_path(c.output, c.file);
+  if (c.tile && lower_extension(c.output) != "exr")
+    throw InputError(c.output + ": expected an EXR file for --tile, as no other tells where its rows belong");
   Sequence(c, terminal).render(settings);
   return 0;
 }

@@ -67,6 +67,7 @@ FrameRequest request_for(const Technique& technique, const Scene& scene, const R
   if (settings.supersample < 1 || settings.supersample > 16) throw InputError("supersample: expected 1..16");
   auto knobs = technique.name == scene.technique ? scene.settings : decltype(scene.settings)();
   knobs.insert(knobs.end(), settings.knobs.begin(), settings.knobs.end());
+  if (within(settings.rows, request.extent.height).count() == 0) throw InputError("rows: the image has none of them");
   request.knobs = KnobValues(technique.knobs, knobs);
 
   const std::vector<std::string> names = image_names(scene);
@@ -107,27 +108,28 @@ class DefaultFloats {
 
 using Images = std::map<std::string, HostImage>;
 
-HostImage image_of(Backend& backend, const Plan::Output& output) {
+HostImage image_of(Backend& backend, const Plan::Output& output, Rows wanted) {
   const Image& from = output.image;
-  HostImage image(from.extent, channels(from.format));
+  const Rows rows = within(wanted, from.extent.height);
+  HostImage image({from.extent.width, rows.count()}, channels(from.format));
   if (from.layers == 1) {
-    backend.download(from, image.values);
+    backend.download(from, rows, image.values);
     return image;
   }
-  std::vector<float> layers(from.floats());
-  backend.download(from, layers);
+  std::vector<float> layers(image.values.size() * static_cast<std::size_t>(from.layers));
+  backend.download(from, rows, layers);
   const auto first = layers.begin() + static_cast<std::ptrdiff_t>(image.values.size()) * output.layer;
   std::copy_n(first, image.values.size(), image.values.begin());
   return image;
 }
 
-Images run_plan(Backend& backend, const Plan& plan, Stats& stats, Progress& progress) {
+Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Progress& progress) {
   for (const Plan::Upload& upload : plan.uploads) {
     progress.check();
     if (!backend.holds(upload.buffer, upload.key)) backend.upload(upload.buffer, upload.make(), upload.key);
   }
   Stats pass;
-  backend.run(plan.steps, pass, progress);
+  backend.run(plan.steps, rows, pass, progress);
   stats.seconds += pass.seconds;
   if (stats.steps.empty()) {
     stats.steps = pass.steps;
@@ -135,7 +137,7 @@ Images run_plan(Backend& backend, const Plan& plan, Stats& stats, Progress& prog
     for (std::size_t i = 0; i < pass.steps.size(); ++i) stats.steps[i].seconds += pass.steps[i].seconds;
   }
   Images images;
-  for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output));
+  for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output, rows));
   return images;
 }
 
@@ -148,11 +150,13 @@ struct Renderer::State {
 
   int threads() const { return threads_of(options); }
 
-  Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats, Progress& progress) {
-    Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), stats, progress)
-                                   : render_reference(scene, request, threads(), stats, progress);
+  Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows, Stats& stats,
+              Progress& progress) {
+    Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), rows, stats, progress)
+                                   : render_reference(scene, request, rows, threads(), stats, progress);
+    const Extent extent{request.extent.width, within(rows, request.extent.height).count()};
     for (const std::string& name : request.images) {  // left out because it is black: a light without power
-      images.try_emplace(name, request.extent, image_channels(name));
+      images.try_emplace(name, extent, image_channels(name));
     }
     return images;
   }
@@ -200,7 +204,7 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
 
   Images images;
   if (settings.supersample == 1) {
-    images = state_->pass(technique, scene, request, frame.stats, progress);
+    images = state_->pass(technique, scene, request, settings.rows, frame.stats, progress);
   } else {
     // beauty stays the float sum of the averaged parts.
     const bool beauty = request.images.contains("beauty");
@@ -210,7 +214,7 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
     for (std::size_t k = 0; k < centres.size(); ++k) {
       progress.report("samples", static_cast<double>(k) / static_cast<double>(centres.size()));
       request.offset = centres[k];
-      for (const auto& [name, image] : state_->pass(technique, scene, request, frame.stats, progress)) {
+      for (const auto& [name, image] : state_->pass(technique, scene, request, settings.rows, frame.stats, progress)) {
         samples.add(name, image);
       }
     }
@@ -225,6 +229,42 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
   frame.stats.steps.insert(frame.stats.steps.begin(), made.begin(), made.end());
   for (const std::string& name : settings.images) frame.images.push_back({name, images.at(name)});
   return frame;
+}
+
+std::vector<Rows> Renderer::bands_within(const Scene& scene, const RenderSettings& asked, std::uint64_t most,
+                                         bool strictly) const {
+  const DefaultFloats mode;
+  const RenderSettings settings = chosen_for_goal(scene, asked, state_->options).first;
+  const Technique& technique = chosen_technique(scene, settings);
+  const FrameRequest request = request_for(technique, scene, settings);
+  const Plan plan = technique.plan ? technique.plan(scene, request) : Plan();
+  const auto bytes = [&](Rows rows) {
+    std::uint64_t sum = technique.plan ? state_->backend->bytes_for(plan.steps, rows) : 0;
+    // The frame's own; of several samples their sum in double as well.
+    const std::uint64_t value = settings.supersample > 1 ? 2 * sizeof(float) + sizeof(double) : sizeof(float);
+    for (const std::string& name : request.images) {
+      sum += value * static_cast<std::uint64_t>(image_channels(name)) * static_cast<std::uint64_t>(request.extent.width) *
+             static_cast<std::uint64_t>(rows.count());
+    }
+    return sum;
+  };
+  const Rows all = within(settings.rows, request.extent.height);
+  constexpr int side = 64;
+  int height = all.count();
+  for (std::uint64_t count = 1; bytes({all.first, all.first + height}) > most; ++count) {
+    if (height <= side) {
+      if (!strictly) break;
+      throw MachineError("not enough memory is allowed: " + std::to_string(height) + " rows of this image take " +
+                         std::to_string((bytes({all.first, all.first + height}) >> 20U) + 1) + " MiB, expected at least that");
+    }
+    const auto share = static_cast<int>((static_cast<std::uint64_t>(all.count()) / (count + 1) + side - 1) / side * side);
+    height = std::max(share, side);
+  }
+  if (height == all.count()) return {all};
+  std::vector<Rows> bands;
+  for (int first = all.first; first < all.end; first = bands.back().end)
+    bands.push_back({first, std::min(first / side * side + height, all.end)});
+  return bands;
 }
 
 Frame Renderer::render(const Scene& scene, const RenderSettings& settings) {

@@ -65,11 +65,11 @@ std::string output_name(const RenderCommand& c, const std::string& name, int fra
   return c.frames.empty() ? name : with_frame(name, frame);
 }
 
-bool is_there(const std::string& output, const std::vector<std::string>& images, Extent extent, const ImageFileOptions& file,
-              Terminal& terminal) {
+bool is_there(const std::string& output, const std::vector<std::string>& images, Extent extent, Rows rows,
+              const ImageFileOptions& file, Terminal& terminal) {
   std::error_code error;
   if (!std::filesystem::exists(output, error)) return false;
-  const std::string difference = difference_from_written(output, images, extent, file);
+  const std::string difference = difference_from_written(output, images, extent, rows, file);
   if (difference.empty()) {
     terminal.log(LogLevel::info, output + ": kept");
   } else {

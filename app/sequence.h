@@ -19,7 +19,8 @@ std::string output_name(const RenderCommand&, const std::string& name, int frame
 
 // For --resume: whether the files of a frame are as write_images() would leave them. Logs that they are kept, or what is wrong
 // with those that are not.
-bool is_there(const std::string& output, const std::vector<std::string>& images, Extent, const ImageFileOptions&, Terminal&);
+bool is_there(const std::string& output, const std::vector<std::string>& images, Extent, Rows, const ImageFileOptions&,
+              Terminal&);
 
 // Tells beside what is being done which frame it is for, and about how long all of them will take.
 class SequenceProgress final : public Progress {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
 #include "common/algorithms/algorithm.h"
 #include "common/progress.h"
+#include "common/rows.h"
 #include "common/stats.h"
 
 namespace airlight {
@@ -28,16 +30,24 @@ class Backend {
   // Gives an image its content, as an input of a step (parity cases do this).
   virtual void upload(const Image&, std::span<const float>, std::uint64_t key) = 0;
 
-  // Runs the steps in order. A step whose wanted outputs are already held under the same key (step_keys() in
-  // common/plan/keys.h) is not run again.
-  virtual void run(std::span<const Step>, Stats&, Progress&) = 0;
+  // Runs the steps in order, so far as the wanted rows of kept images need it: they have the bits that they have in the whole
+  // images. A step whose wanted outputs are already held under the same key (step_keys() in common/plan/keys.h) is not run again.
+  virtual void run(std::span<const Step>, Rows wanted, Stats&, Progress&) = 0;
+  void run(std::span<const Step> steps, Stats& stats, Progress& progress) { run(steps, Rows{}, stats, progress); }
 
-  // Copies a kept image back (layout: Image). Throws std::logic_error for one that no step has
-  // written.
-  virtual void download(const Image&, std::span<float>) = 0;
+  // Copies rows of a kept image back (layout: Image, of these rows alone). Throws std::logic_error where no step has written
+  // them.
+  virtual void download(const Image&, Rows, std::span<float>) = 0;
+  void download(const Image& image, std::span<float> values) { download(image, Rows{}, values); }
 
   // Copies a buffer back that a step has made.
   virtual void download(const Buffer&, std::span<std::byte>) = 0;
+
+  // [byte] at most of the images, and of the buffers made by steps, that run() will hold; nothing is allocated.
+  virtual std::uint64_t bytes_for(std::span<const Step>, Rows wanted) const = 0;
+
+  // [byte] of all images and buffers that are held.
+  virtual std::uint64_t held_bytes() const = 0;
 };
 
 }  // namespace airlight

@@ -18,6 +18,7 @@ struct StepStats {
   std::vector<float> residuals = {};
   float left_out = 0;
   bool converged = true;
+  std::uint64_t bytes = 0;  // of the images and buffers that the backend held when the step ended
 };
 
 struct Stats {

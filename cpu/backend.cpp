@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/plan/keys.h"
+#include "common/plan/rows.h"
 #include "cpu/held_images.h"
 #include "cpu/kernels.h"
 #include "cpu/parallel.h"
@@ -28,7 +29,35 @@ int machine_threads() { return std::max(1, static_cast<int>(std::thread::hardwar
 struct Group {
   std::vector<std::size_t> steps;
   Extent extent;
+  StepRows rows;
 };
+
+struct HeldPart {
+  Image image;
+  Rows rows;
+};
+
+// What is held as a whole, or as its rows: what is kept, and what one group hands to another.
+std::vector<HeldPart> held_parts(std::span<const Group> groups, std::span<const Step> steps) {
+  std::map<Handle, std::pair<std::size_t, HeldPart>> written;  // by which group
+  std::map<Handle, HeldPart> held;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::size_t i : groups[g].steps) {
+      for (const Handle input : inputs_of(steps[i].what)) {
+        const auto found = written.find(input);
+        if (found != written.end() && found->second.first != g) held[input] = found->second.second;
+      }
+      for (const Image& image : outputs_of(steps[i].what)) {
+        const HeldPart part{image, groups[g].rows.held};
+        written[image] = {g, part};
+        if (image.keep) held[image] = part;
+      }
+    }
+  }
+  std::vector<HeldPart> parts;
+  for (const auto& [handle, part] : held) parts.push_back(part);
+  return parts;
+}
 
 // A transient image lives in tile scratch when only one group touches it.
 struct Scratch {
@@ -73,23 +102,24 @@ struct CpuBackend::State {
     return i->second.key;
   }
 
-  std::vector<Group> groups(std::span<const Step>, const std::vector<bool>& run) const;
+  std::uint64_t held_bytes() const;
+  std::vector<Group> groups(std::span<const Step>, std::span<const StepRows>, const std::vector<bool>& run) const;
   template <class A>
   void run_volume(const A&);
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
-  void prepare(std::size_t index, const SurfaceVisibility&);
+  void prepare(std::size_t index, const SurfaceVisibility&, Rows);
   // ShadowPlanes, RayMarch, GaussianAirlight.
   template <class Shadowed>
   requires requires(const Shadowed& a) { a.volumes; }
-  void prepare(std::size_t index, const Shadowed& a) {
-    if (a.volumes) shadow_rasterisers[index].prepare(a.view, a.lights.size(), buffer(a.volumes), simd, workers);
+  void prepare(std::size_t index, const Shadowed& a, Rows rows) {
+    if (a.volumes) shadow_rasterisers[index].prepare(a.view, rows, a.lights.size(), buffer(a.volumes), simd, workers);
   }
-  void prepare(std::size_t index, const ParticleSplats& a) {
+  void prepare(std::size_t index, const ParticleSplats& a, Rows) {
     see_splats(a, buffer_of<float>(a.splats), buffer_of<float>(a.particle_sources), buffer_of<std::int32_t>(a.lines), workers,
                simd, splats[index]);
   }
   template <class PixelStep>
-  void prepare(std::size_t, const PixelStep&) {}
+  void prepare(std::size_t, const PixelStep&, Rows) {}
 
   void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view, int) {
     float* const corners[3] = {view.plane(a.corners, 0), view.plane(a.corners, 1), view.plane(a.corners, 2)};
@@ -128,22 +158,32 @@ void CpuBackend::State::run_volume(const A& a) {
   if constexpr (A::domain == Domain::volume) airlight::run_volume(a, BufferView(buffers), workers, simd);
 }
 
-std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, const std::vector<bool>& run) const {
+std::uint64_t CpuBackend::State::held_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& [handle, image] : images) bytes += image.bytes();
+  for (const auto& [handle, buffer] : buffers) bytes += buffer.bytes.size();
+  for (const Scratch& s : scratch) bytes += s.floats.size() * sizeof(float);
+  return bytes;
+}
+
+std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, std::span<const StepRows> rows,
+                                             const std::vector<bool>& run) const {
   std::vector<Group> found;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!run[i]) continue;
     const bool volume = domain_of(steps[i].what) == Domain::volume;
     const Extent extent = volume ? Extent{} : outputs_of(steps[i].what).at(0).extent;
-    const bool joins = fuse && !found.empty() && domain_of(steps[i].what) == Domain::pixel && found.back().extent == extent;
-    if (!joins) found.push_back({{}, extent});
+    const bool joins = fuse && !found.empty() && domain_of(steps[i].what) == Domain::pixel && found.back().extent == extent &&
+                       found.back().rows.computed == rows[i].computed;
+    if (!joins) found.push_back({{}, extent, rows[i]});
     found.back().steps.push_back(i);
   }
   return found;
 }
 
-void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a) {
-  rasterisers[index].prepare(a, buffer_of<float>(a.positions), buffer_of<float>(a.normals), buffer_of<std::uint32_t>(a.triangles),
-                             simd, workers);
+void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a, Rows rows) {
+  rasterisers[index].prepare(a, rows, buffer_of<float>(a.positions), buffer_of<float>(a.normals),
+                             buffer_of<std::uint32_t>(a.triangles), simd, workers);
 }
 
 void CpuBackend::State::run_group(const Group& group, std::span<const Step> steps, std::span<StepStats> stats,
@@ -155,15 +195,18 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     for (const Buffer& made : buffers_made_by(head.what)) step.items += made.bytes / sizeof(float);
     if (const auto* a = std::get_if<NetworkIteration>(&head.what)) a->tell(buffer_of<float>(a->residuals), step);
     step.seconds = seconds_since(start);
+    step.bytes = held_bytes();
     threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
     return;
   }
+  const Tiling tiling{group.extent, group.rows.computed};
   // What the group touches: whole images where they are held, else a place in each worker's scratch.
   struct Place {
     std::uint32_t id;
     HeldImage* whole;
     bool other;  // of another extent
     std::size_t offset;
+    int first_tile;  // of the group's among those of the whole image that are held
   };
   std::vector<Place> places;
   std::vector<std::pair<std::uint32_t, std::span<const std::byte>>> inputs;
@@ -174,7 +217,8 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     const auto held = images.find(image);
     const bool other = image.extent != group.extent;
     if (other && held == images.end()) throw std::logic_error("a step reads an image of another extent that is not there");
-    places.push_back({image.id, held == images.end() ? nullptr : &held->second, other, scratch_floats});
+    const int first_tile = held == images.end() || other ? 0 : held->second.tiles_above(tiling);
+    places.push_back({image.id, held == images.end() ? nullptr : &held->second, other, scratch_floats, first_tile});
     if (held == images.end()) {
       scratch_floats += static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
     }
@@ -194,12 +238,11 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
             }
           });
           const Clock::time_point start = Clock::now();
-          prepare(i, a);
+          prepare(i, a, group.rows.computed);
           stats[i].seconds += seconds_since(start);
         },
         steps[i].what);
   }
-  const Tiling tiling{group.extent};
   for (Scratch& s : scratch) {
     s.floats.resize(scratch_floats);
     s.seconds.assign(steps.size(), 0.0);
@@ -216,7 +259,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     Scratch& s = scratch[static_cast<std::size_t>(worker)];
     s.view.tile = tiling.tile(t);
     for (const Place& p : places) {
-      if (!p.other) s.view.images[p.id] = p.whole ? p.whole->tile(t) : s.floats.data() + p.offset;
+      if (!p.other) s.view.images[p.id] = p.whole ? p.whole->tile(p.first_tile + t) : s.floats.data() + p.offset;
     }
     for (const std::size_t i : group.steps) {
       const Clock::time_point start = Clock::now();
@@ -227,7 +270,8 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
   threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
   for (const std::size_t i : group.steps) {
     for (const Scratch& s : scratch) stats[i].seconds += s.seconds[i];
-    stats[i].items = static_cast<std::uint64_t>(group.extent.width) * static_cast<std::uint64_t>(group.extent.height);
+    stats[i].items = static_cast<std::uint64_t>(group.extent.width) * static_cast<std::uint64_t>(group.rows.computed.count());
+    stats[i].bytes = held_bytes();
   }
 }
 
@@ -266,41 +310,29 @@ void CpuBackend::upload(const Image& image, std::span<const float> rows, std::ui
   held.key = key;
 }
 
-void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progress) {
+void CpuBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Progress& progress) {
   State& s = *state_;
   const Clock::time_point start = Clock::now();
-  const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return s.upload_key(h); });
+  const std::vector<StepRows> rows = rows_of(steps, wanted, tile_side);
+  const std::vector<std::uint64_t> keys = step_keys(
+      steps, [&](Handle h) { return s.upload_key(h); }, rows);
   const std::vector<bool> run = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
     const auto image = s.images.find(made);
     const auto buffer = s.buffers.find(made);
     return (image != s.images.end() && image->second.key == key) || (buffer != s.buffers.end() && buffer->second.key == key);
   });
-  const std::vector<Group> groups = s.groups(steps, run);
+  const std::vector<Group> groups = s.groups(steps, rows, run);
 
-  // Whole images for what is kept, and for what one group hands to another.
-  std::map<Handle, std::size_t> writer;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const std::size_t i : groups[g].steps) {
-      for (const Handle input : inputs_of(steps[i].what)) {
-        const auto written = writer.find(input);
-        if (written == writer.end() || written->second == g) continue;
-        for (const std::size_t j : groups[written->second].steps) {
-          for (const Image& image : outputs_of(steps[j].what)) {
-            if (image.id == input.id && !image.keep) s.images[image].reset(image);
-          }
-        }
-      }
+  const std::vector<HeldPart> parts = held_parts(groups, steps);
+  for (const Group& group : groups) {
+    for (const std::size_t i : group.steps) {
       for (const Image& image : outputs_of(steps[i].what)) {
         s.buffers.erase(image);
-        writer[image] = g;
-        if (image.keep) {
-          s.images[image].reset(image);
-        } else {
-          s.images.erase(image);
-        }
+        if (!image.keep) s.images.erase(image);
       }
     }
   }
+  for (const HeldPart& part : parts) s.images[part.image].reset(part.image, part.rows);
 
   s.threads_that_ran = 0;
   stats.steps.clear();
@@ -321,10 +353,10 @@ void CpuBackend::run(std::span<const Step> steps, Stats& stats, Progress& progre
   stats.seconds = seconds_since(start);
 }
 
-void CpuBackend::download(const Image& image, std::span<float> rows) {
+void CpuBackend::download(const Image& image, Rows wanted, std::span<float> rows) {
   const auto held = state_->images.find(image);
   if (held == state_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
-  held->second.to_rows(rows);
+  held->second.to_rows(wanted, rows);
 }
 
 void CpuBackend::download(const Buffer& buffer, std::span<std::byte> bytes) {
@@ -332,6 +364,23 @@ void CpuBackend::download(const Buffer& buffer, std::span<std::byte> bytes) {
   if (held == state_->buffers.end() || held->second.key == 0) throw std::logic_error("buffer download: nothing is held");
   std::copy_n(held->second.bytes.begin(), std::min(held->second.bytes.size(), bytes.size()), bytes.begin());
 }
+
+std::uint64_t CpuBackend::bytes_for(std::span<const Step> steps, Rows wanted) const {
+  const std::vector<Group> groups =
+      state_->groups(steps, rows_of(steps, wanted, tile_side), std::vector<bool>(steps.size(), true));
+  std::uint64_t bytes = 0;
+  for (const HeldPart& part : held_parts(groups, steps)) {
+    const Image& image = part.image;
+    bytes += static_cast<std::uint64_t>(Tiling{image.extent, part.rows}.count()) * tile_pixels * sizeof(float) *
+             static_cast<std::uint64_t>(image.layers * channels(image.format));
+  }
+  for (const Step& step : steps) {
+    for (const Buffer& made : buffers_made_by(step.what)) bytes += made.bytes;
+  }
+  return bytes;
+}
+
+std::uint64_t CpuBackend::held_bytes() const { return state_->held_bytes(); }
 
 Simd CpuBackend::simd_that_ran() const { return target_that_runs(state_->simd); }
 int CpuBackend::threads_that_ran() const { return state_->threads_that_ran; }

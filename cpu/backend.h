@@ -24,9 +24,13 @@ class CpuBackend final : public Backend {
   void upload(Buffer, std::span<const std::byte>, std::uint64_t key) override;
   bool holds(Buffer, std::uint64_t key) const override;
   void upload(const Image&, std::span<const float>, std::uint64_t key) override;
-  void run(std::span<const Step>, Stats&, Progress&) override;
-  void download(const Image&, std::span<float>) override;
+  using Backend::download;
+  using Backend::run;
+  void run(std::span<const Step>, Rows wanted, Stats&, Progress&) override;
+  void download(const Image&, Rows, std::span<float>) override;
   void download(const Buffer&, std::span<std::byte>) override;
+  std::uint64_t bytes_for(std::span<const Step>, Rows wanted) const override;
+  std::uint64_t held_bytes() const override;
 
   // For proofs: the target that the kernels really ran on, and how many different threads the last run() used.
   Simd simd_that_ran() const;

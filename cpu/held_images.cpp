@@ -22,30 +22,31 @@ float* AlignedFloats::resize(std::size_t n) {
   return data_.get();
 }
 
-void HeldImage::reset(const Image& image) {
+void HeldImage::reset(const Image& image, Rows rows) {
   image_ = image;
+  tiling_ = {image.extent, rows};
   key = 0;
   floats_per_tile_ = static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
-  values_.resize(floats_per_tile_ * static_cast<std::size_t>(Tiling{image.extent}.count()));
+  values_.resize(floats_per_tile_ * static_cast<std::size_t>(tiling_.count()));
 }
 
-// copy(in the tile, in the rows, pixels): each row of each tile of each plane; in the rows a pixel's channels lie side by side.
+// copy(in the tile, in the rows, pixels): each of these rows of each tile of each plane; in the rows a pixel's channels lie side
+// by side.
 template <class Copy>
-void HeldImage::each_row_piece(Copy&& copy) const {
-  const Tiling tiling{image_.extent};
+void HeldImage::each_row_piece(Rows wanted, Copy&& copy) const {
   const int planes = channels(image_.format);
   const auto width = static_cast<std::size_t>(image_.extent.width);
-  const auto layer_pixels = width * static_cast<std::size_t>(image_.extent.height);
-  for (int t = 0; t < tiling.count(); ++t) {
-    const Tile at = tiling.tile(t);
+  const auto layer_pixels = width * static_cast<std::size_t>(wanted.count());
+  for (int t = 0; t < tiling_.count(); ++t) {
+    const Tile at = tiling_.tile(t);
     const int columns = std::min(tile_side, image_.extent.width - at.x);
-    const int rows = std::min(tile_side, image_.extent.height - at.y);
+    const int first = std::max(wanted.first - at.y, 0), end = std::min(tile_side, wanted.end - at.y);
     float* plane = tile(t);
     for (int layer = 0; layer < image_.layers; ++layer) {
       for (int c = 0; c < planes; ++c, plane += tile_pixels) {
-        for (int y = 0; y < rows; ++y) {
-          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels + static_cast<std::size_t>(at.y + y) * width +
-                                    static_cast<std::size_t>(at.x);
+        for (int y = first; y < end; ++y) {
+          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels +
+                                    static_cast<std::size_t>(at.y + y - wanted.first) * width + static_cast<std::size_t>(at.x);
           copy(plane + static_cast<std::ptrdiff_t>(y) * tile_side,
                pixel * static_cast<std::size_t>(planes) + static_cast<std::size_t>(c), columns, planes);
         }
@@ -56,16 +57,15 @@ void HeldImage::each_row_piece(Copy&& copy) const {
 
 void HeldImage::from_rows(std::span<const float> rows) {
   if (rows.size() != image_.floats()) throw std::logic_error("image upload: wrong number of floats");
-  each_row_piece([&](float* in_tile, std::size_t first, int pixels, int stride) {
+  each_row_piece({0, image_.extent.height}, [&](float* in_tile, std::size_t first, int pixels, int stride) {
     for (int x = 0; x < pixels; ++x) in_tile[x] = rows[first + static_cast<std::size_t>(x * stride)];
   });
 }
 
 void HeldImage::copy_row(int x, int y, int n, int channel, int layer, float* to) const {
-  const Tiling tiling{image_.extent};
-  const int last = image_.extent.width - 1, row = std::clamp(y, 0, image_.extent.height - 1);
+  const int last = image_.extent.width - 1, row = std::clamp(y, rows().first, rows().end - 1);
   const std::ptrdiff_t in_tile = (layer * channels(image_.format) + channel) * tile_pixels + row % tile_side * tile_side;
-  const float* tiles = tile(row / tile_side * tiling.columns()) + in_tile;
+  const float* tiles = tile((row / tile_side - tiling_.first_row()) * tiling_.columns()) + in_tile;
   const auto at = [&](int column) {
     return tiles + column / tile_side * static_cast<std::ptrdiff_t>(floats_per_tile_) + column % tile_side;
   };
@@ -81,9 +81,13 @@ void HeldImage::copy_row(int x, int y, int n, int channel, int layer, float* to)
   }
 }
 
-void HeldImage::to_rows(std::span<float> rows) const {
-  if (rows.size() != image_.floats()) throw std::logic_error("image download: wrong number of floats");
-  each_row_piece([&](const float* in_tile, std::size_t first, int pixels, int stride) {
+void HeldImage::to_rows(Rows asked, std::span<float> rows) const {
+  const Rows wanted = within(asked, image_.extent.height), held = this->rows();
+  if (wanted.first < held.first || wanted.end > held.end) throw std::logic_error("image download: rows that are not held");
+  Image part = image_;
+  part.extent.height = wanted.count();
+  if (rows.size() != part.floats()) throw std::logic_error("image download: wrong number of floats");
+  each_row_piece(wanted, [&](const float* in_tile, std::size_t first, int pixels, int stride) {
     for (int x = 0; x < pixels; ++x) rows[first + static_cast<std::size_t>(x * stride)] = in_tile[x];
   });
 }

@@ -19,6 +19,7 @@ class AlignedFloats {
   // Grows only; the content is lost when it does.
   float* resize(std::size_t n);
   float* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
 
  private:
   struct Free {
@@ -28,29 +29,36 @@ class AlignedFloats {
   std::size_t size_ = 0;
 };
 
-// One whole image: [tile][layer][channel][tile_pixels].
+// One image, or the tiles of it that have some rows in them: [tile][layer][channel][tile_pixels].
 class HeldImage {
  public:
-  void reset(const Image&);
+  void reset(const Image&, Rows = {});
+  // By its number among those that are held.
   float* tile(int index) const { return values_.data() + static_cast<std::size_t>(index) * floats_per_tile_; }
   const Image& image() const { return image_; }
-  // Of one layer and channel the `n` pixels from (x, y) on; beyond the border those at the border are repeated.
+  // How many of the tiles that are held stand in rows above the first of these.
+  int tiles_above(const Tiling& tiles) const { return (tiles.first_row() - tiling_.first_row()) * tiling_.columns(); }
+  Rows rows() const { return within(tiling_.made, image_.extent.height); }
+  std::size_t bytes() const { return values_.size() * sizeof(float); }
+  // Of one layer and channel the `n` pixels from (x, y) on; beyond the border, or where nothing is held, those that are next to
+  // it are repeated.
   void copy_row(int x, int y, int n, int channel, int layer, float* to) const;
-  // One pixel, which must lie in the image.
+  // One pixel, which must lie in the rows that are held.
   float at(int x, int y, int channel = 0, int layer = 0) const {
-    const int index = y / tile_side * Tiling{image_.extent}.columns() + x / tile_side;
+    const int index = (y / tile_side - tiling_.first_row()) * tiling_.columns() + x / tile_side;
     return tile(index)[(layer * channels(image_.format) + channel) * tile_pixels + y % tile_side * tile_side + x % tile_side];
   }
   void from_rows(std::span<const float>);
-  void to_rows(std::span<float>) const;
+  void to_rows(Rows, std::span<float>) const;
 
   std::uint64_t key = 0;  // of its content; 0: none
 
  private:
   template <class Copy>
-  void each_row_piece(Copy&&) const;
+  void each_row_piece(Rows, Copy&&) const;
 
   Image image_;
+  Tiling tiling_;
   std::size_t floats_per_tile_ = 0;
   AlignedFloats values_;
 };

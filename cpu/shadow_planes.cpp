@@ -216,7 +216,7 @@ struct ShadowRasteriser::State {
 ShadowRasteriser::ShadowRasteriser() : state_(std::make_unique<State>()) {}
 ShadowRasteriser::~ShadowRasteriser() = default;
 
-void ShadowRasteriser::prepare(const View& view, std::size_t lights, std::span<const std::byte> bytes, Simd simd,
+void ShadowRasteriser::prepare(const View& view, Rows rows, std::size_t lights, std::span<const std::byte> bytes, Simd simd,
                                Workers& workers) {
   State& s = *state_;
   s.simd = simd;
@@ -242,7 +242,7 @@ void ShadowRasteriser::prepare(const View& view, std::size_t lights, std::span<c
     const Job& job = jobs[static_cast<std::size_t>(j)];
     const std::span<const ShadowEdge> all = volumes.of(*job.from);
     job.light->chunks[job.chunk].make(rays, *job.from, all.subspan(job.first, std::min(chunk_size, all.size() - job.first)),
-                                      tile_side);
+                                      tile_side, rows);
   });
 }
 

@@ -30,8 +30,8 @@ class ShadowRasteriser {
   ShadowRasteriser();
   ~ShadowRasteriser();
 
-  // `volumes` must stay valid until the last tile.
-  void prepare(const View&, std::size_t lights, std::span<const std::byte> volumes, Simd, Workers&);
+  // `volumes` must stay valid until the last tile. Tiles are those of these rows.
+  void prepare(const View&, Rows, std::size_t lights, std::span<const std::byte> volumes, Simd, Workers&);
 
   // Both are safe from many threads at once, each with its own worker.
   void run_tile(const ShadowPlanes&, const TileView&, int worker) const;

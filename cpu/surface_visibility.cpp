@@ -189,7 +189,7 @@ struct Rasteriser::State {
 Rasteriser::Rasteriser() : state_(std::make_unique<State>()) {}
 Rasteriser::~Rasteriser() = default;
 
-void Rasteriser::prepare(const SurfaceVisibility& a, std::span<const float> positions, std::span<const float> normals,
+void Rasteriser::prepare(const SurfaceVisibility& a, Rows rows, std::span<const float> positions, std::span<const float> normals,
                          std::span<const std::uint32_t> triangles, Simd simd, Workers& workers) {
   State& s = *state_;
   s.a = a;
@@ -197,7 +197,7 @@ void Rasteriser::prepare(const SurfaceVisibility& a, std::span<const float> posi
   s.normals = normals;
   s.triangles = triangles;
   s.simd = simd;
-  s.setup.run(a, positions, triangles, workers);
+  s.setup.run(a, rows, positions, triangles, workers);
 }
 
 void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material,

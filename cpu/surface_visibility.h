@@ -19,7 +19,8 @@ class Rasteriser {
   ~Rasteriser();
 
   // `positions`, `normals`: float[3] a vertex; `triangles`: uint32[4] a triangle. They must stay valid until the last run_tile().
-  void prepare(const SurfaceVisibility&, std::span<const float> positions, std::span<const float> normals,
+  // Tiles are those of these rows.
+  void prepare(const SurfaceVisibility&, Rows, std::span<const float> positions, std::span<const float> normals,
                std::span<const std::uint32_t> triangles, Simd, Workers&);
 
   // Each pointer: tile_pixels floats; `corners`: three of them, or null. Safe from many threads at once.

@@ -19,7 +19,10 @@ constexpr int block = 4096;  // vertices
 // Scalar double code: the same on every SIMD target.
 class TriangleSetup::Projection {
  public:
-  explicit Projection(const SurfaceVisibility& a) : view_(a.view) {
+  Projection(const SurfaceVisibility& a, const Tiling& tiling)
+      : first_row(tiling.first_row() * tile_side),
+        last_row(std::min(first_row + tiling.rows() * tile_side, a.view.extent.height) - 1),
+        view_(a.view) {
     const double w = view_.extent.width, h = view_.extent.height, tan = view_.tan_half_fov;
     scale_ = h / (2 * tan);
     step = 2 * tan / h;
@@ -53,8 +56,9 @@ class TriangleSetup::Projection {
   double reach() const { return (guard - std::max(view_.extent.width, view_.extent.height) * 0.5 - 1) / scale_; }
   Extent extent() const { return view_.extent; }
 
-  double step;       // of the image plane a pixel
-  double left, top;  // image plane position of pixel (0, 0)
+  double step;                    // of the image plane a pixel
+  double left, top;               // image plane position of pixel (0, 0)
+  const int first_row, last_row;  // that are made
 
  private:
   const View& view_;
@@ -69,9 +73,9 @@ void TriangleSetup::add(const Projection& projection, TriangleChunk& chunk, cons
   PixelTriangle t;
   // The first centre at or after the least coordinate, the last at or before the greatest.
   t.x0 = std::max(0, (low(v0.sx, v1.sx, v2.sx) + subpixel / 2 - 1) >> 8);
-  t.y0 = std::max(0, (low(v0.sy, v1.sy, v2.sy) + subpixel / 2 - 1) >> 8);
+  t.y0 = std::max(projection.first_row, (low(v0.sy, v1.sy, v2.sy) + subpixel / 2 - 1) >> 8);
   t.x1 = std::min(extent.width - 1, (high(v0.sx, v1.sx, v2.sx) - subpixel / 2) >> 8);
-  t.y1 = std::min(extent.height - 1, (high(v0.sy, v1.sy, v2.sy) - subpixel / 2) >> 8);
+  t.y1 = std::min(projection.last_row, (high(v0.sy, v1.sy, v2.sy) - subpixel / 2) >> 8);
   if (t.x0 > t.x1 || t.y0 > t.y1) return;
 
   const auto area =
@@ -159,7 +163,7 @@ void TriangleSetup::sort_by_tile(TriangleChunk& chunk, const Tiling& tiling) con
   chunk.members.clear();
   chunk.count.resize(static_cast<std::size_t>(tiling.count()), 0);  // zero between calls
   const auto each_tile = [&](const PixelTriangle& t, auto&& visit) {
-    for (int row = t.y0 / tile_side; row <= t.y1 / tile_side; ++row) {
+    for (int row = t.y0 / tile_side - tiling.first_row(); row <= t.y1 / tile_side - tiling.first_row(); ++row) {
       for (int column = t.x0 / tile_side; column <= t.x1 / tile_side; ++column) {
         visit(static_cast<std::uint32_t>(row * tiling.columns() + column));
       }
@@ -193,10 +197,10 @@ std::span<const std::uint32_t> TriangleChunk::of_tile(std::uint32_t tile) const 
   return std::span(members).subspan(begin[k], begin[k + 1] - begin[k]);
 }
 
-void TriangleSetup::run(const SurfaceVisibility& a, std::span<const float> positions, std::span<const std::uint32_t> triangles,
-                        Workers& workers) {
-  const Projection projection(a);
-  const Tiling tiling{a.view.extent};
+void TriangleSetup::run(const SurfaceVisibility& a, Rows rows, std::span<const float> positions,
+                        std::span<const std::uint32_t> triangles, Workers& workers) {
+  const Tiling tiling{a.view.extent, rows};
+  const Projection projection(a, tiling);
   const std::size_t vertices = positions.size() / 3, count = triangles.size() / 4;
   vertices_.resize(vertices);
   workers.each(static_cast<int>((vertices + block - 1) / block), [&](int b, int) {

@@ -35,7 +35,8 @@ struct TriangleChunk {
 
 class TriangleSetup {
  public:
-  void run(const SurfaceVisibility&, std::span<const float> positions, std::span<const std::uint32_t> triangles, Workers&);
+  // Of the triangles those that touch the tiles of these rows.
+  void run(const SurfaceVisibility&, Rows, std::span<const float> positions, std::span<const std::uint32_t> triangles, Workers&);
   // In order of the triangles, however many threads there were.
   std::span<const TriangleChunk> chunks() const { return {chunks_.data(), used_}; }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/rows.h"
 
 namespace airlight {
 
@@ -16,16 +17,20 @@ constexpr int tile_side = 64;
 constexpr int tile_pixels = tile_side * tile_side;  // 4096: what stays in the first and second cache
 
 struct Tile {
-  int index = 0;
-  int x = 0, y = 0;  // pixel of its upper left corner
+  int index = 0;     // among those that are made of the image
+  int x = 0, y = 0;  // pixel of its upper left corner, in the whole image
 };
 
+// Those tiles of an image that have the rows in them. Their corners stand at multiples of tile_side in the whole image, so that a
+// pixel has the same place in its tile whatever is made of the image.
 struct Tiling {
   Extent extent;
+  Rows made = {};
   int columns() const { return (extent.width + tile_side - 1) / tile_side; }
-  int rows() const { return (extent.height + tile_side - 1) / tile_side; }
-  int count() const { return columns() * rows(); }
-  Tile tile(int index) const { return {index, index % columns() * tile_side, index / columns() * tile_side}; }
+  int first_row() const { return within(made, extent.height).first / tile_side; }
+  int rows() const { return (within(made, extent.height).end + tile_side - 1) / tile_side - first_row(); }
+  int count() const { return columns() * std::max(rows(), 0); }
+  Tile tile(int index) const { return {index, index % columns() * tile_side, (first_row() + index / columns()) * tile_side}; }
 };
 
 // Whether a ray of a square in a tile has a length. Of pixels that are known without it none has.

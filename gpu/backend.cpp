@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "common/plan/keys.h"
+#include "common/plan/rows.h"
 #include "gpu/step_runner.h"
 
 namespace airlight {
@@ -11,6 +12,8 @@ namespace airlight {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int granule = 16;  // rows of the squares that Gaussians and shadow planes are told for
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -47,16 +50,18 @@ class GlBackend final : public Backend {
 
   void upload(const Image& image, std::span<const float> values, std::uint64_t key) override {
     const GlContext::Current current(*context_);
-    HeldTexture& held = prepare(image);
+    HeldTexture& held = prepare(image, Rows{});
     write_texture(context_->gl(), *held.texture, image, values);
     held.key = key;
   }
 
-  void download(const Image& image, std::span<float> values) override {
+  void download(const Image& image, Rows wanted, std::span<float> values) override {
     const GlContext::Current current(*context_);
     const auto held = runner_->images.find(image);
     if (held == runner_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
-    read_texture(context_->gl(), *held->second.texture, image, values);
+    const Rows rows = within(wanted, image.extent.height), there = within(held->second.rows, image.extent.height);
+    if (rows.first < there.first || rows.end > there.end) throw std::logic_error("image download: rows that are not held");
+    read_texture(context_->gl(), *held->second.texture, image, {rows.first - there.first, rows.end - there.first}, values);
   }
 
   void download(const Buffer& buffer, std::span<std::byte> bytes) override {
@@ -67,11 +72,29 @@ class GlBackend final : public Backend {
     std::copy_n(content.begin(), std::min(content.size(), bytes.size()), bytes.begin());
   }
 
-  void run(std::span<const Step>, Stats&, Progress&) override;
+  void run(std::span<const Step>, Rows wanted, Stats&, Progress&) override;
+
+  // As if no texture were used twice.
+  std::uint64_t bytes_for(std::span<const Step> steps, Rows wanted) const override {
+    const std::vector<StepRows> rows = rows_of(steps, wanted, granule);
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (const Image& image : outputs_of(steps[i].what)) bytes += bytes_of(shape_of(image, rows[i].held));
+      for (const Buffer& made : buffers_made_by(steps[i].what)) bytes += made.bytes;
+    }
+    return bytes;
+  }
+
+  std::uint64_t held_bytes() const override {
+    std::uint64_t bytes = runner_->pool().bytes();
+    for (const auto& [handle, held] : runner_->images) bytes += held.texture ? bytes_of(held.texture->shape()) : 0;
+    for (const auto& [handle, held] : runner_->buffers) bytes += held.buffer ? held.buffer->bytes() : 0;
+    return bytes;
+  }
 
  private:
   std::uint64_t upload_key(Handle) const;
-  HeldTexture& prepare(const Image&);
+  HeldTexture& prepare(const Image&, Rows);
   HeldStorage& prepare(const Buffer&);
   void refuse_large(const Algorithm&) const;
   void release_transients();
@@ -88,16 +111,18 @@ std::uint64_t GlBackend::upload_key(Handle h) const {
   return key;
 }
 
-// A texture of the image's shape; what it held is gone.
-HeldTexture& GlBackend::prepare(const Image& image) {
+// A texture for these rows of the image; what it held is gone.
+HeldTexture& GlBackend::prepare(const Image& image, Rows rows) {
   runner_->buffers.erase(image);
   HeldTexture& held = runner_->images[image];
   held.key = 0;
   held.image = image;
+  held.rows = rows;
   held.transient = false;
-  if (!held.texture || !(held.texture->shape() == shape_of(image))) {
+  const TextureShape shape = shape_of(image, rows);
+  if (!held.texture || !(held.texture->shape() == shape)) {
     runner_->pool().give(std::move(held.texture));
-    held.texture = runner_->pool().take(shape_of(image));
+    held.texture = runner_->pool().take(shape);
   }
   return held;
 }
@@ -133,10 +158,12 @@ void GlBackend::release_transients() {
   }
 }
 
-void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progress) {
+void GlBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Progress& progress) {
   const GlContext::Current current(*context_);
   const Clock::time_point start = Clock::now();
-  const std::vector<std::uint64_t> keys = step_keys(steps, [&](Handle h) { return upload_key(h); });
+  const std::vector<StepRows> rows = rows_of(steps, wanted, granule);
+  const std::vector<std::uint64_t> keys = step_keys(
+      steps, [&](Handle h) { return upload_key(h); }, rows);
   const std::vector<bool> runs = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
     const auto image = runner_->images.find(made);
     const auto buffer = runner_->buffers.find(made);
@@ -161,6 +188,7 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
     ~Release() { backend.release_transients(); }
   } const release{*this};
 
+  runner_->begin_run(steps, rows);
   stats.steps.clear();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i], {}, {}};
@@ -169,7 +197,8 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
       const Clock::time_point step_start = Clock::now();
       const std::vector<Image> outputs = outputs_of(steps[i].what);
       const std::vector<Buffer> made = buffers_made_by(steps[i].what);
-      for (const Image& image : outputs) prepare(image).transient = !image.keep;
+      for (const Image& image : outputs) prepare(image, rows[i].held).transient = !image.keep;
+      runner_->begin_step(rows[i].computed);
       for (const Buffer& buffer : made) prepare(buffer);
       std::visit([&](const auto& a) { airlight::run(a, *runner_, progress); }, steps[i].what);
       context_->gl().Finish();  // what the step costs, and that a stop is seen soon
@@ -193,8 +222,9 @@ void GlBackend::run(std::span<const Step> steps, Stats& stats, Progress& progres
       }
       if (!outputs.empty()) {
         const Extent extent = outputs[0].extent;
-        step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height);
+        step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(rows[i].computed.count());
       }
+      step.bytes = held_bytes();
       step.seconds = seconds_since(step_start);
     }
     stats.steps.push_back(step);

@@ -17,12 +17,12 @@ void run(const DepthAwareUpsample& a, StepRunner& r, const Progress& progress) {
   view.extent = a.airlight.extent;
   r.view(view);
   struct {
-    int columns, rows, layers, unused_int;
+    int columns, rows, layers, sampled_row;
     float step, tolerance, unused[2];
   } const knobs{a.sampled_distance.extent.width,
                 a.sampled_distance.extent.height,
                 a.per_light.layers,
-                0,
+                r.held_rows(a.sampled_distance.extent).first,
                 1 / static_cast<float>(a.stride),
                 a.tolerance,
                 {}};

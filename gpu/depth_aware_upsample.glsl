@@ -15,7 +15,7 @@ layout(std140, binding = 2) uniform Knobs {
   int columns;  // of samples
   int rows;
   int layers;
-  int unused;
+  int sampled_row;  // of samples, that is row 0 of their textures
   float step_size;
   float tolerance;
 };
@@ -39,7 +39,8 @@ Channel[3] channels_of(sampler2DArray samples, int layer) {
   ivec3 last = ivec3(columns - 1, rows - 1, layer);
   vec3 s[16];
   for (int k = 0; k < 16; ++k) {
-    s[k] = texelFetch(samples, clamp(ivec3(first + ivec2(k % 4 - 1, k / 4 - 1), layer), ivec3(0, 0, layer), last), 0).xyz;
+    ivec3 at = clamp(ivec3(first + ivec2(k % 4 - 1, k / 4 - 1), layer), ivec3(0, 0, layer), last);
+    s[k] = texelFetch(samples, at - ivec3(0, sampled_row, 0), 0).xyz;
   }
   bool has_left = first.x > 0;
   bool has_right = first.x < columns - 2;
@@ -101,7 +102,7 @@ void find_serving(float distance, Channel[3] channels, Channel transmittances) {
   float fitting = 0.0;
   for (int k = 0; k < 4; ++k) {
     ivec2 at = min(first + ivec2(k % 2, k / 2), ivec2(columns - 1, rows - 1));
-    end[k] = 1.0 / texelFetch(sampled_distance, ivec3(at, 0), 0).x;
+    end[k] = 1.0 / texelFetch(sampled_distance, ivec3(at.x, at.y - sampled_row, 0), 0).x;
     fit[k] = bilinear[k] * depth_fit(inverse, end[k], tolerance);
     fitting += fit[k];
   }
@@ -136,7 +137,7 @@ vec4 values_of(Channel[3] channels) { return vec4(value_of(channels[0]), value_o
 void main() {
   ivec2 p = this_pixel();
   if (outside(p)) return;
-  vec2 place = vec2(p) * step_size;
+  vec2 place = vec2(in_image(p)) * step_size;
   vec2 corner = min(floor(place), vec2(max(columns - 2, 0), max(rows - 2, 0)));
   first = ivec2(corner);
   u = place.x - corner.x;

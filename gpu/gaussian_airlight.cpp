@@ -15,15 +15,19 @@ constexpr GLuint squares_binding = 0, panels_binding = 1, shades_binding = 2, in
 constexpr int most_before = 374;  // 1 + 4 + 9 + ... + 16^2 of GaussLegendre::before, four in a vector
 constexpr int all_pieces = GaussianPanels::most_cuts + 2;
 
-// The panels of all squares, as the shader reads them; and what it may do in one dispatch (LoopBudget).
+// The panels of all squares that have some of the rows, as the shader reads them; and what it may do in one dispatch
+// (LoopBudget).
 class PanelLists {
  public:
   // most_rounds: of loops in a dispatch, beside those for lit parts.
-  PanelLists(const GaussianAirlight& a, std::int64_t most_rounds)
-      : a_(a), most_rounds_(most_rounds), columns_((a.view.extent.width + bin_side - 1) / bin_side) {
-    const int rows = (a.view.extent.height + bin_side - 1) / bin_side;
+  PanelLists(const GaussianAirlight& a, Rows rows, std::int64_t most_rounds)
+      : a_(a),
+        most_rounds_(most_rounds),
+        columns_((a.view.extent.width + bin_side - 1) / bin_side),
+        first_row_(rows.first / bin_side) {
+    const int end_row = (rows.end + bin_side - 1) / bin_side;
     GaussianPanels panels(a);
-    for (int row = 0; row < rows; ++row) {
+    for (int row = first_row_; row < end_row; ++row) {
       for (int column = 0; column < columns_; ++column) {
         panels.make(column * bin_side, row * bin_side);
         add(panels);
@@ -58,6 +62,7 @@ class PanelLists {
     for (const GLuint binding : {squares_binding, panels_binding, shades_binding, indices_binding}) r.bind(binding, binding);
   }
   int columns() const { return columns_; }
+  int first_row() const { return first_row_; }
   std::int64_t rounds_of_a_piece() const { return rounds_of_a_piece_; }
   int dispatches() const { return dispatches_; }
 
@@ -129,14 +134,14 @@ class PanelLists {
 
   const GaussianAirlight& a_;
   std::int64_t most_rounds_, rounds_of_a_piece_ = 1;
-  int columns_, dispatches_ = 1;
+  int columns_, first_row_, dispatches_ = 1;
   std::vector<glm::ivec4> squares_, parts_, panels_, shades_;
   std::vector<int> indices_;
 };
 
 struct Knobs {
   glm::vec4 albedo_extinction, ambient_sky_distance, emission_g;
-  int phase_kind, side, columns, unused;
+  int phase_kind, side, columns, first_square_row;
   glm::vec4 rules[GaussianAirlight::most_samples * (GaussianAirlight::most_samples + 1) / 2];
   glm::vec4 before[most_before];
 };
@@ -169,7 +174,7 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   r.write(3, a.optical_depth);
   if (a.tables && depths_at < 0) r.storage(tables_binding, a.tables);
   r.view(a.view);
-  PanelLists lists(a, shadowed ? LoopBudget::most / 2 : LoopBudget::most);
+  PanelLists lists(a, r.rows(), shadowed ? LoopBudget::most / 2 : LoopBudget::most);
   lists.bind(r);
   Knobs knobs{{a.albedo, a.extinction},
               {a.ambient, a.sky_distance},
@@ -177,7 +182,7 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
               static_cast<int>(a.phase.kind),
               bin_side,
               lists.columns(),
-              0,
+              lists.first_row(),
               {},
               {}};
   glm::vec4* to = knobs.rules;

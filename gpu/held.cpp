@@ -8,8 +8,10 @@
 
 namespace airlight {
 
-TextureShape shape_of(const Image& image) {
-  return {static_cast<GLenum>(image.format == Format::r32f ? GL_R32F : GL_RGBA32F), image.extent, image.layers};
+TextureShape shape_of(const Image& image, Rows rows) {
+  return {static_cast<GLenum>(image.format == Format::r32f ? GL_R32F : GL_RGBA32F),
+          {image.extent.width, within(rows, image.extent.height).count()},
+          image.layers};
 }
 
 Texture::Texture(const GlFunctions& gl, const TextureShape& shape) : gl_(gl), shape_(shape) {
@@ -36,6 +38,12 @@ Texture::Texture(const GlFunctions& gl, const TextureShape& shape) : gl_(gl), sh
   }
 }
 
+std::size_t bytes_of(const TextureShape& shape) {
+  const std::size_t pixel = shape.format == GL_RGBA32F ? 4 * sizeof(float) : sizeof(float);  // all others have 32 bits
+  return pixel * static_cast<std::size_t>(shape.extent.width) * static_cast<std::size_t>(shape.extent.height) *
+         static_cast<std::size_t>(std::max(shape.layers, 1));
+}
+
 Texture::~Texture() { gl_.DeleteTextures(1, &name_); }
 
 std::unique_ptr<Texture> TexturePool::take(const TextureShape& shape) {
@@ -52,6 +60,12 @@ std::unique_ptr<Texture> TexturePool::take(const TextureShape& shape) {
 
 void TexturePool::give(std::unique_ptr<Texture> texture) {
   if (texture) free_.push_back({std::move(texture), true});
+}
+
+std::size_t TexturePool::bytes() const {
+  std::size_t sum = 0;
+  for (const Free& f : free_) sum += bytes_of(f.texture->shape());
+  return sum;
 }
 
 void TexturePool::trim() {
@@ -94,13 +108,16 @@ void write_texture(const GlFunctions& gl, const Texture& texture, const Image& i
   check_gl(gl, "image upload");
 }
 
-void read_texture(const GlFunctions& gl, const Texture& texture, const Image& image, std::span<float> values) {
-  if (values.size() != image.floats()) throw std::logic_error("image download: wrong number of floats");
+void read_texture(const GlFunctions& gl, const Texture& texture, const Image& image, Rows rows, std::span<float> values) {
+  Image wanted = image;
+  wanted.extent.height = rows.count();
+  if (rows.end > texture.shape().extent.height || values.size() != wanted.floats())
+    throw std::logic_error("image download: wrong number of floats");
   // A layer at a time: GL takes the size of what it may write as an int.
   const std::size_t layer_floats = values.size() / static_cast<std::size_t>(image.layers);
   for (int layer = 0; layer < image.layers; ++layer) {
     const std::span<float> part = values.subspan(static_cast<std::size_t>(layer) * layer_floats, layer_floats);
-    gl.GetTextureSubImage(texture.name(), 0, 0, 0, layer, image.extent.width, image.extent.height, 1, host_format(image),
+    gl.GetTextureSubImage(texture.name(), 0, 0, rows.first, layer, image.extent.width, rows.count(), 1, host_format(image),
                           GL_FLOAT, static_cast<GLsizei>(std::min<std::size_t>(part.size_bytes(), 0x7fffffff)), part.data());
   }
   check_gl(gl, "image download");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/rows.h"
 #include "gpu/functions.h"
 
 namespace airlight {
@@ -22,7 +23,9 @@ struct TextureShape {
   int layers = 1;
   friend bool operator==(const TextureShape&, const TextureShape&) = default;
 };
-TextureShape shape_of(const Image&);
+// Of a texture for these rows of the image.
+TextureShape shape_of(const Image&, Rows);
+std::size_t bytes_of(const TextureShape&);
 
 // A two-dimensional texture array with one mipmap level.
 class Texture {
@@ -49,6 +52,7 @@ class TexturePool {
   void give(std::unique_ptr<Texture>);
   // Frees what has not been taken since the last call.
   void trim();
+  std::size_t bytes() const;          // of those that wait
   int made() const { return made_; }  // how many textures were ever allocated
 
  private:
@@ -92,8 +96,8 @@ class GlBuffer {
   std::size_t bytes_ = 0, allocated_ = 0;
 };
 
-// Rows from the top, channels interleaved, layer by layer, as Image tells.
+// Rows from the top, channels interleaved, layer by layer, as Image tells. Of what is read, the rows of the texture are told.
 void write_texture(const GlFunctions&, const Texture&, const Image&, std::span<const float>);
-void read_texture(const GlFunctions&, const Texture&, const Image&, std::span<float>);
+void read_texture(const GlFunctions&, const Texture&, const Image&, Rows, std::span<float>);
 
 }  // namespace airlight

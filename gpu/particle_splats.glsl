@@ -66,7 +66,7 @@ void main() {
   vec3 sum = vec3(0.0);
   float depth = 0.0;
   float left = 1.0;
-  int square = pixel.x / bin_side + bin_columns * (pixel.y / bin_side);
+  int square = pixel.x / bin_side + bin_columns * (in_image(pixel).y / bin_side);
   int to = bins[square + 1];
   for (int n = bins[square]; n < to; ++n) {
     vec4 center = splats[2 * bins[n]];

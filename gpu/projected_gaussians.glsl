@@ -48,7 +48,7 @@ void main() {
   vec3 sums[LIGHTS_A_PASS];
   for (int n = 0; n < LIGHTS_A_PASS; ++n) sums[n] = vec3(0.0);
 
-  int square = pixel.x / bin_side + bin_columns * (pixel.y / bin_side);
+  int square = pixel.x / bin_side + bin_columns * (in_image(pixel).y / bin_side);
   int from = bins[square] + first_of_list;
   int to = min(bins[square + 1], from + most_of_list);
   for (int n = from; n < to; ++n) {

@@ -1,22 +1,24 @@
 // What every per-pixel shader shares: one invocation a pixel, the view, the lights.
 
 layout(local_size_x = 16, local_size_y = 4) in;
-uniform int first_row;  // of the band of rows that this dispatch covers
+uniform int first_row;  // of the band of rows that this dispatch covers, in the textures
 
 layout(std140, binding = 0) uniform ViewBlock {
   vec4 view_right;    // w: width
   vec4 view_up;       // w: height
   vec4 view_forward;  // w: tangent of half the field of view
-  vec4 view_offset;   // xy: sub-pixel shift
+  vec4 view_offset;   // xy: sub-pixel shift; z: row of the image that is row 0 of the textures; w: the row of these where what is made ends
 };
 
+// A pixel in the textures, which may hold some rows of an image alone; the same in the image.
 ivec2 this_pixel() { return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, first_row); }
-bool outside(ivec2 p) { return p.x >= int(view_right.w) || p.y >= int(view_up.w); }
+bool outside(ivec2 p) { return p.x >= int(view_right.w) || p.y >= int(view_offset.w); }
+ivec2 in_image(ivec2 p) { return p + ivec2(0, int(view_offset.z)); }
 
 // Unit direction of a pixel's ray.
 vec3 pixel_ray(ivec2 p) {
   float x = image_plane_x(float(p.x), view_offset.x, view_right.w, view_up.w, view_forward.w);
-  float y = image_plane_y(float(p.y), view_offset.y, view_up.w, view_forward.w);
+  float y = image_plane_y(float(in_image(p).y), view_offset.y, view_up.w, view_forward.w);
   vec3 d;
   view_ray(x, y, view_right.x, view_right.y, view_right.z, view_up.x, view_up.y, view_up.z, view_forward.x, view_forward.y,
            view_forward.z, d.x, d.y, d.z);

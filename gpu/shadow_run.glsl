@@ -1,7 +1,7 @@
 // One light over one run of tiles, a rectangle of the screen (gpu/shadow_runs.h).
 
 layout(std140, binding = 4) uniform Run {
-  ivec4 corner_size;  // of the rectangle [pixel]
+  ivec4 corner_size;  // of the rectangle [pixel], in the textures
   int tile_side;
   int light;
   int covering;   // triangles between camera and light

@@ -16,7 +16,7 @@ constexpr GLuint begin_binding = 0, planes_binding = 1, changes_binding = 2, lis
 constexpr GLuint own = 16;  // the first of our buffers' numbers: others keep those of their bindings
 
 struct RunBlock {
-  glm::ivec4 corner_size;
+  glm::ivec4 corner_size;  // in the textures
   int tile_side, light, covering, capacity, any_plane;
   float sky_distance;
   int unused[2];
@@ -58,14 +58,17 @@ class ShadowRuns {
         program_(program),
         progress_(progress),
         draw_(draw),
-        limit_(r.storage_limit()) {}
+        limit_(r.storage_limit()),
+        rows_(r.rows()),
+        first_row_(rows_.first / side),
+        texture_row_(r.held_rows(extent).first) {}
 
   void light(int index, const ShadowQuads& quads, std::int64_t covering) {
     const Extent extent = extent_;
-    const int columns = (extent.width + side - 1) / side, rows = (extent.height + side - 1) / side;
-    for (int row = 0; row < rows; ++row) {
+    const int columns = (extent.width + side - 1) / side, end_row = (rows_.end + side - 1) / side;
+    for (int row = first_row_; row < end_row; ++row) {
       const auto tile = [&](int column) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+        return static_cast<std::size_t>(row - first_row_) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
       };
       for (int column = 0; column < columns;) {
         RunOfTiles run;
@@ -101,10 +104,11 @@ class ShadowRuns {
     progress_.check();
     const Extent extent = extent_;
     const int x = run.first * side, y = row * side;
-    const int width = std::min(run.count * side, extent.width - x), height = std::min(side, extent.height - y);
+    const int width = std::min(run.count * side, extent.width - x), height = std::min(side, rows_.end - y);
     const std::int64_t held = std::clamp<std::int64_t>(covering, -(1 << 30), 1 << 30);
     const bool any = !run.changes.empty();
-    RunBlock block{{x, y, width, height}, side, light, static_cast<int>(held), capacity_, any ? 1 : 0, sky_distance_, {}};
+    RunBlock block{
+        {x, y - texture_row_, width, height}, side, light, static_cast<int>(held), capacity_, any ? 1 : 0, sky_distance_, {}};
     r_.block(run_binding, block);
     ShadowRun done{light, {width, height}, 1};
     if (any) {
@@ -137,6 +141,8 @@ class ShadowRuns {
   const Progress& progress_;
   const std::function<void(const ShadowRun&)>& draw_;
   std::size_t limit_;
+  Rows rows_;
+  int first_row_, texture_row_;  // of tiles that are made; of the image, that is row 0 of the textures
   int capacity_ = short_list;
 };
 
@@ -150,7 +156,7 @@ void each_shadow_run(const View& view, std::size_t lights, const Buffer& volumes
   ShadowRuns runs(view.extent, sky_distance, r, lists, progress, draw);
   ShadowQuads quads;
   for (std::size_t i = 0; i < lights; ++i) {
-    quads.make(rays, content.lights[i], content.of(content.lights[i]), side);
+    quads.make(rays, content.lights[i], content.of(content.lights[i]), side, r.rows());
     runs.light(static_cast<int>(i), quads, content.lights[i].covering);
   }
 }

@@ -50,6 +50,8 @@ const Texture& StepRunner::texture(const Image& image) const {
   const auto held = images.find(image);
   if (held == images.end() || !held->second.texture)
     throw std::logic_error("a step reads an image that was neither made nor uploaded");
+  if (!(within(held->second.rows, image.extent.height) == held_rows(image.extent)))
+    throw std::logic_error("a step reads an image of other rows than it makes");
   return *held->second.texture;
 }
 
@@ -129,10 +131,26 @@ void StepRunner::block_bytes(GLuint binding, std::span<const std::byte> bytes) {
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
 }
 
+void StepRunner::begin_run(std::span<const Step> steps, std::span<const StepRows> rows) {
+  held_.clear();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (const Image& image : outputs_of(steps[i].what)) held_[{image.extent.width, image.extent.height}] = rows[i].held;
+  }
+}
+
+Rows StepRunner::held_rows(Extent extent) const {
+  const auto found = held_.find({extent.width, extent.height});
+  return within(found == held_.end() ? Rows{} : found->second, extent.height);
+}
+
 void StepRunner::view(const View& v) {
+  const Rows held = held_rows(v.extent);
   struct {
     glm::vec4 right, up, forward, offset;
-  } const values{{v.right, v.extent.width}, {v.up, v.extent.height}, {v.forward, v.tan_half_fov}, {v.offset, 0, 0}};
+  } const values{{v.right, v.extent.width},
+                 {v.up, v.extent.height},
+                 {v.forward, v.tan_half_fov},
+                 {v.offset, held.first, rows_.end - held.first}};
   block(view_binding, values);
 }
 
@@ -164,16 +182,18 @@ GLuint StepRunner::derived(const Buffer& from, std::size_t bytes, const std::fun
   return made.buffer->name();
 }
 
-void StepRunner::each_pixel(Program& program, Extent extent, const Progress& progress) {
+void StepRunner::each_pixel(Program& program, Extent extent, const Progress& progress, Rows part) {
   program.use();
   const std::int64_t rows_a_band = std::max<std::int64_t>(band_pixels / extent.width / tile_height, 1) * tile_height;
   const auto columns = static_cast<GLuint>((extent.width + tile_width - 1) / tile_width);
-  for (std::int64_t first = 0; first < extent.height; first += rows_a_band) {
-    if (first > 0) {
+  const int held = held_rows(extent).first, begin = std::max(rows_.first, part.first) - held;
+  const int end = std::min(rows_.end, part.end) - held;
+  for (std::int64_t first = begin; first < end; first += rows_a_band) {
+    if (first > begin) {
       gl_.Finish();
       progress.check();
     }
-    const std::int64_t rows = std::min(rows_a_band, extent.height - first);
+    const std::int64_t rows = std::min(rows_a_band, end - first);
     program.set("first_row", static_cast<int>(first));
     gl_.DispatchCompute(columns, static_cast<GLuint>((rows + tile_height - 1) / tile_height), 1);
   }

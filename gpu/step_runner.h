@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/algorithms/algorithm.h"
+#include "common/plan/rows.h"
 #include "common/progress.h"
 #include "gpu/context.h"
 #include "gpu/held.h"
@@ -26,6 +27,7 @@ constexpr GLuint tables_binding = 7, many_lights_binding = 6;              // st
 
 struct HeldTexture {
   Image image;
+  Rows rows;  // that it holds: its first row of pixels is rows.first of the image
   std::unique_ptr<Texture> texture;
   std::uint64_t key = 0;   // of its content; 0: none
   bool transient = false;  // goes back to the pool after its last reader
@@ -68,6 +70,11 @@ class StepRunner {
   void block(GLuint binding, const T& values) {  // std140
     block_bytes(binding, std::as_bytes(std::span(&values, 1)));
   }
+  // Which rows textures of an extent hold during a run: as steps say, else all.
+  void begin_run(std::span<const Step>, std::span<const StepRows>);
+  Rows held_rows(Extent) const;
+  void begin_step(Rows made) { rows_ = made; }
+  Rows rows() const { return rows_; }  // that the step makes
   void view(const View&);
   // Returns the define under which gpu/screen.glsl finds them: few are a uniform block, which is read faster.
   std::string lights(std::span<const Light>);
@@ -75,8 +82,9 @@ class StepRunner {
   // A buffer made on the device from another, again only when that one's content changes.
   GLuint derived(const Buffer& from, std::size_t bytes, const std::function<void(GLuint name)>& make);
 
-  // Runs a compute shader of gpu/screen.glsl for every pixel, a band of rows at a time, looking at progress between them.
-  void each_pixel(Program&, Extent, const Progress&);
+  // Runs a compute shader of gpu/screen.glsl for every pixel of the step's rows, a band of rows at a time, looking at progress
+  // between them. `part`: of these rows alone, which begin at a multiple of 4.
+  void each_pixel(Program&, Extent, const Progress&, Rows part = {});
   void each(Program&, std::size_t items, std::size_t group);  // a compute shader over a list
 
   std::map<Handle, HeldTexture> images;
@@ -92,6 +100,8 @@ class StepRunner {
   std::map<std::string, std::unique_ptr<Program>> programs_;
   std::map<GLuint, GlBuffer> blocks_, small_;
   std::map<Handle, HeldStorage> derived_;
+  Rows rows_;
+  std::map<std::pair<int, int>, Rows> held_;  // by extent
 };
 
 void run(const SurfaceVisibility&, StepRunner&, const Progress&);

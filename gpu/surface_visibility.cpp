@@ -10,6 +10,9 @@ namespace {
 
 constexpr const char* file = "gpu/surface_visibility.glsl";
 constexpr std::size_t triangle_bytes = 4 * sizeof(std::uint32_t), index_bytes = 3 * sizeof(std::uint32_t);
+// The screen is drawn in slabs of so many rows from the top, each by itself, also where a band of it is wanted alone: where a
+// vertex is rounded to a sub-pixel must not depend on what is drawn with it.
+constexpr int slab_rows = 1024;
 constexpr std::size_t triangles_a_draw = 1 << 20;  // between two looks at progress
 
 // The objects that drawing needs, for one step.
@@ -21,6 +24,7 @@ struct Target {
     gl.CreateVertexArrays(1, &vertices);
   }
   ~Target() {
+    gl.Disable(GL_SCISSOR_TEST);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.BindVertexArray(0);
     gl.DeleteFramebuffers(1, &framebuffer);
@@ -41,15 +45,17 @@ GLuint index_buffer(const SurfaceVisibility& a, StepRunner& r, std::size_t trian
   });
 }
 
-// The number of the nearest triangle plus one, 0 where there is none.
-void draw(const SurfaceVisibility& a, StepRunner& r, GLuint hits, const Progress& progress) {
+// The number of the nearest triangle plus one, 0 where there is none: of the slab that begins with row `top`, in these of its
+// rows.
+void draw(const SurfaceVisibility& a, StepRunner& r, Extent slab, int top, Rows rows, GLuint hits, const Progress& progress) {
   const GlFunctions& gl = r.gl();
-  const Extent extent = a.view.extent;
   const std::size_t triangles = r.buffers.at(a.triangles).buffer->bytes() / triangle_bytes;
-  const PooledTexture depth(r.pool(), {GL_DEPTH_COMPONENT32F, extent, 1});
+  const PooledTexture depth(r.pool(), {GL_DEPTH_COMPONENT32F, slab, 1});
   const Target target(gl);
   gl.NamedFramebufferTextureLayer(target.framebuffer, GL_COLOR_ATTACHMENT0, hits, 0, 0);
   gl.NamedFramebufferTextureLayer(target.framebuffer, GL_DEPTH_ATTACHMENT, depth.name(), 0, 0);
+  gl.Enable(GL_SCISSOR_TEST);
+  gl.Scissor(0, rows.first, slab.width, rows.count());
   const std::array<GLuint, 4> nothing{};
   const float infinitely_far = 0;
   gl.ClearNamedFramebufferuiv(target.framebuffer, GL_COLOR, 0, nothing.data());
@@ -63,19 +69,23 @@ void draw(const SurfaceVisibility& a, StepRunner& r, GLuint hits, const Progress
   gl.EnableVertexArrayAttrib(target.vertices, 0);
   gl.VertexArrayElementBuffer(target.vertices, indices);
 
+  const Extent extent = a.view.extent;
   const auto width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
+  // From the image's clip space to the slab's: the same where it is the image.
+  const float slabs = height / static_cast<float>(slab.height);
+  const float down = static_cast<float>(slab.height - extent.height + 2 * top) / static_cast<float>(slab.height);
   struct {
     glm::vec4 right, up, forward, shift;
   } const knobs{{a.view.right, height / (width * a.view.tan_half_fov)},
-                {a.view.up, 1 / a.view.tan_half_fov},
+                {a.view.up, 1 / a.view.tan_half_fov * slabs},
                 {a.view.forward, a.view.near_plane},
-                {-2 * a.view.offset.x / width, 2 * a.view.offset.y / height, 0, 0}};
+                {-2 * a.view.offset.x / width, 2 * a.view.offset.y / height * slabs + down, 0, 0}};
   Program& program = r.raster(file);
   r.block(knobs_binding, knobs);
   program.use();
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl.BindVertexArray(target.vertices);
-  gl.Viewport(0, 0, extent.width, extent.height);
+  gl.Viewport(0, 0, slab.width, slab.height);
   gl.ClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);  // row 0 of the texture is the top row
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
@@ -94,19 +104,24 @@ void draw(const SurfaceVisibility& a, StepRunner& r, GLuint hits, const Progress
 }  // namespace
 
 void run(const SurfaceVisibility& a, StepRunner& r, const Progress& progress) {
-  const PooledTexture hits(r.pool(), {GL_R32UI, a.view.extent, 1});
-  draw(a, r, hits.name(), progress);
+  const Extent slab{a.view.extent.width, std::min(a.view.extent.height, slab_rows)};
+  const PooledTexture hits(r.pool(), {GL_R32UI, slab, 1});
   Program& program = r.compute(file, {"RESOLVE", a.corners ? "WITH_CORNERS" : ""});
-  r.gl().BindTextureUnit(0, hits.name());
-  r.write(0, a.distance);
-  r.write(1, a.normal);
-  r.write(2, a.material);
-  r.write(3, a.corners);
-  r.storage(0, a.positions);
-  r.storage(1, a.normals);
-  r.storage(2, a.triangles);
-  r.view(a.view);
-  r.each_pixel(program, a.view.extent, progress);
+  for (int top = r.rows().first / slab_rows * slab_rows; top < r.rows().end; top += slab_rows) {
+    const Rows rows{std::max(r.rows().first, top), std::min(r.rows().end, top + slab_rows)};
+    draw(a, r, slab, top, {rows.first - top, rows.end - top}, hits.name(), progress);
+    program.set("slab_row", top);
+    r.gl().BindTextureUnit(0, hits.name());
+    r.write(0, a.distance);
+    r.write(1, a.normal);
+    r.write(2, a.material);
+    r.write(3, a.corners);
+    r.storage(0, a.positions);
+    r.storage(1, a.normals);
+    r.storage(2, a.triangles);
+    r.view(a.view);
+    r.each_pixel(program, a.view.extent, progress, rows);
+  }
 }
 
 }  // namespace airlight

@@ -26,6 +26,7 @@ void main() { hit = uint(first_triangle + gl_PrimitiveID) + 1u; }
 #ifdef RESOLVE
 #include "gpu/screen.glsl"
 layout(binding = 0) uniform usampler2DArray hit_image;
+uniform int slab_row;  // of the image, that is row 0 of hit_image
 layout(binding = 0, r32f) uniform writeonly image2DArray distance_image;
 layout(binding = 1, rgba32f) uniform writeonly image2DArray normal_image;
 layout(binding = 2, r32f) uniform writeonly image2DArray material_image;
@@ -43,7 +44,7 @@ void main() {
   ivec2 p = this_pixel();
   if (outside(p)) return;
   ivec3 at = ivec3(p, 0);
-  uint hit = texelFetch(hit_image, at, 0).x;
+  uint hit = texelFetch(hit_image, ivec3(p.x, in_image(p).y - slab_row, 0), 0).x;
   float along = 1e30;
   vec3 n = vec3(0.0);
   float material = -1.0;

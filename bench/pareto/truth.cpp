@@ -27,7 +27,7 @@ Images rendered(const Scene& scene, Extent extent, const KnobValues& knobs, std:
   request.images = std::move(images);
   request.knobs = knobs;
   Stats stats;
-  return render_reference(scene, request, threads, stats, progress);
+  return render_reference(scene, request, {}, threads, stats, progress);
 }
 
 std::string key_of(const Scene& scene, Extent extent, const KnobValues& knobs) {

@@ -7,7 +7,8 @@
 
 namespace airlight {
 
-std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::function<std::uint64_t(Handle)>& key_of_upload) {
+std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::function<std::uint64_t(Handle)>& key_of_upload,
+                                     std::span<const StepRows> rows) {
   std::map<Handle, std::uint64_t> written;
   std::vector<std::uint64_t> keys;
   for (const Step& step : steps) {
@@ -34,8 +35,13 @@ std::vector<std::uint64_t> step_keys(std::span<const Step> steps, const std::fun
           });
         },
         step.what);
+    const std::vector<Image> made = outputs_of(step.what);
+    if (!rows.empty() && !made.empty()) {
+      const std::uint64_t of_rows = key_of(rows[keys.size()], made[0].extent.height);
+      if (of_rows != 0) hash.add(of_rows);
+    }
     keys.push_back(hash.value());
-    for (const Image& image : outputs_of(step.what)) written[image] = output_key(keys.back(), image);
+    for (const Image& image : made) written[image] = output_key(keys.back(), image);
     for (const Buffer& buffer : buffers_made_by(step.what)) written[buffer] = output_key(keys.back(), buffer);
   }
   return keys;

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "common/algorithms/algorithm.h"
+#include "common/plan/rows.h"
 
 namespace airlight {
 
 // One key a step. `key_of_upload` gives the key of an input that no earlier step writes. Throws std::logic_error (from it) where
-// an input has neither been written nor uploaded.
-std::vector<std::uint64_t> step_keys(std::span<const Step>, const std::function<std::uint64_t(Handle)>& key_of_upload);
+// an input has neither been written nor uploaded. `rows`: what rows_of() tells of each step; empty: whole images.
+std::vector<std::uint64_t> step_keys(std::span<const Step>, const std::function<std::uint64_t(Handle)>& key_of_upload,
+                                     std::span<const StepRows> rows = {});
 
 // The key of a step's output.
 std::uint64_t output_key(std::uint64_t step_key, const Image& output);

@@ -58,9 +58,12 @@ ScreenFunction ScreenRays::scaled(ScreenFunction f) const {
   return f;
 }
 
-void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::span<const ShadowEdge> edges, int side) {
+void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::span<const ShadowEdge> edges, int side,
+                       Rows wanted) {
   const Extent extent = rays.extent();
-  const int columns = (extent.width + side - 1) / side, rows = (extent.height + side - 1) / side;
+  wanted = within(wanted, extent.height);
+  const int columns = (extent.width + side - 1) / side, first_row = wanted.first / side;
+  const int rows = std::max((wanted.end + side - 1) / side - first_row, 0);
   quads.clear();
   begin.assign(static_cast<std::size_t>(columns * rows) + 1, 0);
   members.clear();
@@ -100,7 +103,7 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
     bool seen = false;
     for (int row = 0; row < rows; ++row) {
       double from = 0, to = extent.width - 1;
-      const double y0 = row * side, y1 = std::min(y0 + side, static_cast<double>(extent.height)) - 1;
+      const double y0 = (first_row + row) * side, y1 = std::min(y0 + side, static_cast<double>(extent.height)) - 1;
       narrow(quad.u, slack, y0, y1, from, to);
       narrow(minus_v, slack, y0, y1, from, to);
       narrow(quad.e, slack, y0, y1, from, to);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/algorithms/shadow_planes.h"
+#include "common/rows.h"
 
 namespace airlight {
 
@@ -48,8 +49,8 @@ struct ShadowQuads {
   std::vector<ShadowQuad> quads;
   std::vector<std::uint32_t> begin, members;
 
-  // Planes that touch no pixel are left out.
-  void make(const ScreenRays&, const ShadowLight&, std::span<const ShadowEdge>, int side);
+  // Planes that touch no pixel are left out. Tiles are numbered from the first row of tiles that has some of `rows`, to the last.
+  void make(const ScreenRays&, const ShadowLight&, std::span<const ShadowEdge>, int side, Rows rows = {});
   std::span<const std::uint32_t> of_tile(std::size_t tile) const {
     return std::span(members).subspan(begin[tile], begin[tile + 1] - begin[tile]);
   }

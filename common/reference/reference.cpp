@@ -117,8 +117,8 @@ ReferenceFrame reference_frame(const Scene& scene, Extent extent, const Referenc
   return frame;
 }
 
-std::map<std::string, HostImage> render_reference(const Scene& scene, const FrameRequest& request, int threads, Stats& stats,
-                                                  Progress& progress) {
+std::map<std::string, HostImage> render_reference(const Scene& scene, const FrameRequest& request, Rows band, int threads,
+                                                  Stats& stats, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   ReferenceSettings settings{request.knobs.number("tolerance"), request.knobs.choice("shadows") == "on",
                              indirect_of(request.knobs.choice("indirect")), request.knobs.number("indirect_tolerance")};
@@ -130,15 +130,17 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
   const Reference reference(scene, settings);
   const ReferenceParts parts{wanted(request, "surface"),
                              wanted(request, "airlight") || request.images.contains("standard_error")};
+  const Rows rows = within(band, request.extent.height);
+  const Extent extent{request.extent.width, rows.count()};
   std::map<std::string, HostImage> images;
   for (const std::string& name : request.images) {
-    images.emplace(name, HostImage(request.extent, name == "edge" ? 1 : image_channels(name)));
+    images.emplace(name, HostImage(extent, name == "edge" ? 1 : image_channels(name)));
   }
   const auto edge = images.find("edge");
-  each_row(request.extent.height, threads, progress, [&](int y) {
+  each_row(extent.height, threads, progress, [&](int y) {
     for (int x = 0; x < request.extent.width; ++x) {
       if (x % 32 == 0 || settings.indirect == Indirect::exact) progress.check();
-      const glm::dvec2 at(x + 0.5 + request.offset.x, y + 0.5 + request.offset.y);
+      const glm::dvec2 at(x + 0.5 + request.offset.x, rows.first + y + 0.5 + request.offset.y);
       put_all(images, scene, x, y, reference.pixel(at, request.extent, parts, &progress));
       if (edge != images.end()) edge->second.at(x, y) = reference.edge(at, request.extent) ? 1.0F : 0.0F;
     }
@@ -146,8 +148,7 @@ std::map<std::string, HostImage> render_reference(const Scene& scene, const Fram
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   stats.seconds += seconds.count();
   stats.steps.push_back({"reference", seconds.count(),
-                         static_cast<std::uint64_t>(request.extent.width) * static_cast<std::uint64_t>(request.extent.height),
-                         false});
+                         static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(extent.height), false});
   return images;
 }
 

@@ -10,6 +10,7 @@
 #include "common/plan/plan.h"
 #include "common/progress.h"
 #include "common/reference/pixel.h"
+#include "common/rows.h"
 #include "common/scene/scene.h"
 #include "common/stats.h"
 
@@ -28,8 +29,8 @@ struct ReferenceFrame {
 // The same bits for any number of threads. Throws Interrupted when asked to stop.
 ReferenceFrame reference_frame(const Scene&, Extent, const ReferenceSettings&, bool with_edges, int threads, Progress&);
 
-// The images of the request by name, as any technique gives them; "standard_error" (of the airlight, by the spread of random
-// paths; 0 without any) and "edge" (1 or 0) too where they are asked for. In `stats` one step, "reference".
-std::map<std::string, HostImage> render_reference(const Scene&, const FrameRequest&, int threads, Stats&, Progress&);
+// These rows of the images of the request by name, as any technique gives them; "standard_error" (of the airlight, by the spread
+// of random paths; 0 without any) and "edge" (1 or 0) too where they are asked for. In `stats` one step, "reference".
+std::map<std::string, HostImage> render_reference(const Scene&, const FrameRequest&, Rows, int threads, Stats&, Progress&);
 
 }  // namespace airlight

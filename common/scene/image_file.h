@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/image.h"
+#include "common/rows.h"
 
 namespace airlight {
 
@@ -30,10 +31,10 @@ std::vector<std::string> write_images(const std::string& path, std::span<const N
 // What write_images() would refuse of a path and options, before the work of making an image. Throws InputError.
 void check_image_path(const std::string& path, const ImageFileOptions&);
 
-// Why the files of `path` are not what write_images() would make of images of these names and this size; empty where they are, as
-// far as is told by: all files are there and readable to the last pixel, their size, their images' names (EXR), and their
-// metadata where the format has kept it (EXR, PNG).
-std::string difference_from_written(const std::string& path, std::span<const std::string> images, Extent,
+// Why the files of `path` are not what ImageWriter (common/scene/image_writer.h) would make of these rows of images of these
+// names and this size; empty where they are, as far as is told by: all files are there and readable to the last pixel, their size
+// and rows, their images' names (EXR), and their metadata where the format has kept it (EXR, PNG).
+std::string difference_from_written(const std::string& path, std::span<const std::string> images, Extent, Rows,
                                     const ImageFileOptions&);
 
 // Reads every channel as 32-bit float. Throws InputError.

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "common/error.h"
+#include "common/scene/temporary_file.h"
 
 namespace airlight {
 
@@ -37,16 +38,15 @@ T number(const std::string& path, std::string_view bytes, std::size_t& at, std::
 
 }  // namespace
 
-std::vector<unsigned char> encoded_pfm(const HostImage& image) {
+void write_pfm_rows(TemporaryFile& file, const HostImage& rows, int first, Extent extent) {
   static_assert(std::endian::native == std::endian::little);
-  const std::string header =
-      fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf", image.extent.width, image.extent.height);
-  const std::size_t row = image.index(0, 1) * sizeof(float);
-  std::vector<unsigned char> bytes(header.size() + row * static_cast<std::size_t>(image.extent.height));
-  std::memcpy(bytes.data(), header.data(), header.size());
-  unsigned char* to = bytes.data() + header.size();
-  for (int y = image.extent.height; y-- > 0; to += row) std::memcpy(to, image.values.data() + image.index(0, y), row);
-  return bytes;
+  const std::string header = fmt::format("{}\n{} {}\n-1.0\n", rows.channels == 3 ? "PF" : "Pf", extent.width, extent.height);
+  if (first == 0) file.write_at(0, header.data(), header.size());
+  const std::size_t row = rows.index(0, 1) * sizeof(float);
+  for (int y = 0; y < rows.extent.height; ++y) {
+    const auto from_bottom = static_cast<std::size_t>(extent.height - 1 - first - y);
+    file.write_at(header.size() + from_bottom * row, rows.values.data() + rows.index(0, y), row);
+  }
 }
 
 HostImage decoded_pfm(const std::string& path, std::string_view bytes) {

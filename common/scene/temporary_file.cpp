@@ -89,6 +89,18 @@ void TemporaryFile::write(const void* bytes, std::size_t size) {
   }
 }
 
+void TemporaryFile::write_at(std::uint64_t offset, const void* bytes, std::size_t size) {
+  const NoFileSizeSignal no_signal;
+  for (const auto* at = static_cast<const char*>(bytes); size > 0;) {
+    const ssize_t written = ::pwrite(descriptor_, at, size, static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw MachineError(fmt::format("{}: writing failed: {}", target_, reason(errno)));
+    at += written;
+    offset += static_cast<std::uint64_t>(written);
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
 void TemporaryFile::rename_to_target() {
   const int closed = close(descriptor_);
   descriptor_ = -1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace airlight {
@@ -16,7 +17,8 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& name() const { return name_; }
-  void write(const void* bytes, std::size_t size);
+  void write(const void* bytes, std::size_t size);                           // at the end
+  void write_at(std::uint64_t offset, const void* bytes, std::size_t size);  // anywhere; write() knows nothing of it
   void rename_to_target();
 
  private:
