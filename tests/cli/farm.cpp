@@ -88,15 +88,15 @@ TEST_F(Farm, PlansAreCommandsOfAShell) {
 // Whoever is killed, and when: a file that is there is whole.
 TEST_F(Farm, LosesNothingToKilledWorkers) {
   if (shell("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is not installed";
-  ok("plan scene.json --frames 0-1 --tiles 3 -o a.#.exr");
+  ok("plan scene.json --frames 1 --tiles 3 -o a.#.exr");
   work.write("tiles", out);
-  ok("plan scene.json --frames 0-1 --tiles 3 -o a.#.exr --merge");
+  ok("plan scene.json --frames 1 --tiles 3 -o a.#.exr --merge");
   work.write("merges", out);
   const std::string parallel = "parallel --will-cite -j3 >/dev/null 2>&1";
   for (const std::string seconds : {"0.1", "0.3"}) shell("sed 's/^/timeout --signal=KILL " + seconds + " /' tiles | " + parallel);
   EXPECT_EQ(shell(parallel + " <tiles && " + parallel + " <merges"), 0);
-  ok("render scene.json --frames 0-1 -o one.#.exr");
-  for (const std::string n : {"0", "1"}) same("a." + n + ".exr", "one." + n + ".exr");
+  ok("render scene.json --frames 1 -o one.#.exr");
+  same("a.1.exr", "one.1.exr");
   // Tiles are kept only where they are of this scene, and this tile.
   const auto kept = [&](const std::string& tile) {
     return work.run("render scene.json --frames 1 --tile " + tile + " -o a.1.tile-2-of-3.exr --resume --log-level info")
