@@ -154,6 +154,7 @@ Geometry geometry_of(const Scene& scene, std::uint32_t first_id) {
     add_matrix(directions, s.transform);
     add_all(places, s.mesh->positions);
     add_all(directions, s.mesh->normals);
+    indices.add(s.mesh->positions.size());  // on which the numbers of the next surface's vertices depend
     add_all(indices, s.mesh->triangles);
   }
   if (g.triangles * 3 >= (std::size_t{1} << 31U)) throw InputError("the surfaces have more than 2^31 indices in all");
