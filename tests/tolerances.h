@@ -290,6 +290,10 @@ inline constexpr Tolerance tolerances[] = {
      "roundings"},
     {"bent_ray", 1e-4,
      "length, of a unit vector: noise is taken at up to 456 cells, where a float tells 3e-5 of one, and its slope is below 2.5"},
+    {"design_screen", 1e-13, "relative; a handful of roundings of doubles, and a tangent of its own beside that of the C library"},
+    {"design_place", 1e-12, "metres, of places some metres from the origin: a handful of roundings of doubles"},
+    {"design_bounce", 1e-5, "metres: each of a few bounces turns 1e-7 of the scene's size before the surface"},
+    {"design_diffusion", 0.1, "relative, of the variance of 3000 particles: three standard deviations of it (kurtosis 4)"},
     {"airlight_allowed", 1, "a multiple of airlight_value of the value and airlight_end of the end value"},
 };
 

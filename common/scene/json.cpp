@@ -19,11 +19,11 @@ constexpr std::size_t most_members = 1000;  // of an object: the search for dupl
 // Turns byte offsets into places. Asked in rising order it reads the text once.
 class Places {
  public:
-  explicit Places(std::string_view text) : text_(text) {}
+  Places(std::string_view text, int line) : text_(text), line_(line), place_{line, 1} {}
 
   Place at(std::size_t offset) {
     offset = std::min(offset, text_.size());
-    if (offset < offset_) offset_ = 0, place_ = {};
+    if (offset < offset_) offset_ = 0, place_ = {line_, 1};
     for (; offset_ < offset; ++offset_) {
       const auto byte = static_cast<std::uint8_t>(text_[offset_]);
       if (byte == '\n') {
@@ -42,6 +42,7 @@ class Places {
 
  private:
   std::string_view text_;
+  int line_;
   std::size_t offset_ = 0;
   Place place_;
 };
@@ -58,8 +59,8 @@ class Builder {
  public:
   using Ch = char;
 
-  Builder(std::string_view original, Stream& stream, const std::string& name)
-      : places_(original), original_(original), stream_(stream), name_(name) {}
+  Builder(std::string_view original, Stream& stream, const std::string& name, int line)
+      : places_(original, line), original_(original), stream_(stream), name_(name) {}
 
   bool Null() { return add(Kind::null, stream_.Tell() - 4), true; }
   bool Bool(bool b) {
@@ -204,16 +205,16 @@ std::string quoted(std::string_view text) {
   return out + (length < text.size() ? "...\"" : "\"");
 }
 
-Value parse(std::string_view text, const std::string& name) {
+Value parse(std::string_view text, const std::string& name, int line) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") {
-    throw InputError(message(name, {}, "a UTF-8 byte order mark, expected the text to begin at once"));
+    throw InputError(message(name, {line, 1}, "a UTF-8 byte order mark, expected the text to begin at once"));
   }
   if (const std::size_t zero = text.find('\0'); zero != text.npos) {
-    throw InputError(message(name, Places(text).at(zero), "a zero byte, expected UTF-8 text"));
+    throw InputError(message(name, Places(text, line).at(zero), "a zero byte, expected UTF-8 text"));
   }
   std::string buffer(text);  // parsing in place changes it
   Stream stream(buffer.data());
-  Builder builder(text, stream, name);
+  Builder builder(text, stream, name, line);
   rapidjson::Reader reader;
   constexpr unsigned flags = rapidjson::kParseInsituFlag | rapidjson::kParseCommentsFlag | rapidjson::kParseNumbersAsStringsFlag |
                              rapidjson::kParseValidateEncodingFlag;
@@ -225,7 +226,7 @@ Value parse(std::string_view text, const std::string& name) {
       while (at > 0 && of_word(text[at - 1])) --at;
     }
     const bool line_end = reader.GetParseErrorCode() == rapidjson::kParseErrorStringEscapeInvalid && text[at] != '\\';
-    throw InputError(message(name, Places(text).at(at),
+    throw InputError(message(name, Places(text, line).at(at),
                              line_end ? "a line end or control character in a string, expected '\"' before it"
                                       : explained(reader.GetParseErrorCode())));
   }

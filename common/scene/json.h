@@ -27,8 +27,8 @@ struct Value {
 };
 
 // Throws InputError "name:line:column: ...": syntax, duplicate keys, byte order mark, wrong encoding, numbers that a
-// double cannot hold, nesting deeper than 64.
-Value parse(std::string_view text, const std::string& name);
+// double cannot hold, nesting deeper than 64. `line`: of the file, where the text begins.
+Value parse(std::string_view text, const std::string& name, int line = 1);
 
 // "name:line:column: what"
 std::string message(const std::string& name, Place place, std::string_view what);

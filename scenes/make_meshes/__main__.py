@@ -1,4 +1,4 @@
-"""Makes the meshes of cathedral.json, lattice_lamp.json and street_night.json: OBJ files in a folder a scene.
+"""Makes the meshes of cathedral.json, fog_city.json, lattice_lamp.json and street_night.json: OBJ files in a folder a scene.
 
     python3 scenes/make_meshes [FOLDER]      # FOLDER is scenes/ unless said
 
@@ -10,10 +10,11 @@ import pathlib
 import sys
 
 from cathedral import cathedral
+from fog_city import fog_city
 from lattice_lamp import lattice_lamp
 from street_night import street_night
 
 folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
-for make in (cathedral, lattice_lamp, street_night):
+for make in (cathedral, fog_city, lattice_lamp, street_night):
     for name, mesh in make().items():
         mesh.write(folder / make.__name__ / f"{name}.obj")
