@@ -63,6 +63,7 @@ void check_gl(const GlFunctions& gl, const char* what) {
   for (int i = 0; i < 8 && gl.GetError() != GL_NO_ERROR; ++i) {
   }
   if (error == GL_OUT_OF_MEMORY) throw MachineError(std::string(what) + ": OpenGL is out of memory");
+  if (error == GL_CONTEXT_LOST) throw MachineError(std::string(what) + ": OpenGL's context is lost");
   throw MachineError(std::string(what) + ": OpenGL error " + std::to_string(error));
 }
 

@@ -19,6 +19,13 @@ std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   return log;
 }
 
+// What a compiler says, in the one line that an error has.
+std::string one_line(std::string log) {
+  while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
+  for (std::size_t at = log.find('\n'); at != log.npos; at = log.find('\n', at)) log.replace(at, 1, "; ");
+  return log;
+}
+
 // A shader object for as long as its program is linked.
 struct Stage {
   const GlFunctions& gl;
@@ -30,9 +37,9 @@ struct Stage {
     GLint good = 0;
     gl.GetShaderiv(name, GL_COMPILE_STATUS, &good);
     if (good != 0) return;
-    const std::string log = with_file_names(log_of(name, gl.GetShaderiv, gl.GetShaderInfoLog), source.files);
+    const std::string log = one_line(with_file_names(log_of(name, gl.GetShaderiv, gl.GetShaderInfoLog), source.files));
     gl.DeleteShader(name);
-    throw MachineError("this OpenGL does not compile a shader:\n" + log);
+    throw MachineError("this OpenGL does not compile a shader: " + log);
   }
   ~Stage() { gl.DeleteShader(name); }
   Stage(const Stage&) = delete;
@@ -51,8 +58,8 @@ Program::Program(const GlFunctions& gl, const Stages& stages) : gl_(gl), name_(g
     GLint good = 0;
     gl_.GetProgramiv(name_, GL_LINK_STATUS, &good);
     if (good == 0) {
-      throw MachineError("this OpenGL does not link " + stages.back().second.files.front() + ":\n" +
-                         log_of(name_, gl_.GetProgramiv, gl_.GetProgramInfoLog));
+      throw MachineError("this OpenGL does not link " + stages.back().second.files.front() + ": " +
+                         one_line(log_of(name_, gl_.GetProgramiv, gl_.GetProgramInfoLog)));
     }
   } catch (...) {
     gl_.DeleteProgram(name_);

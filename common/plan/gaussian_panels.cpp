@@ -316,8 +316,8 @@ struct GaussianPanels::Build {
 
   void run() {
     most_spared = spared();
-    const double sky = static_cast<double>(a.sky_distance), extinction = static_cast<double>(a.extinction);
-    const double limit = std::min({sky, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
+    const double longest = static_cast<double>(a.longest_ray), extinction = static_cast<double>(a.extinction);
+    const double limit = std::min({longest, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);
     const Range all{0, static_cast<std::uint32_t>(stack.size())};
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
