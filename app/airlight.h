@@ -11,6 +11,7 @@
 // (common/error.h) and leave every object usable. The caller's floating-point mode and GL context are restored.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,9 @@ struct RendererOptions {
   // Files beside meshes (MESH.DIGITS.transfer) that keep what surfaces hide of an environment are read, and written where they
   // can be.
   bool transfer_files = false;
+  // [byte] that images may take that nobody asked for. While the camera stands still those of all steps are kept, so that an edit
+  // runs what depends on it alone; 0: none.
+  std::size_t keep = std::size_t{256} << 20U;
 };
 
 struct RenderSettings {
@@ -79,6 +83,10 @@ class Renderer {
   // where these take more it throws MachineError if `strictly`, and they are what is given else. Nothing is allocated.
   std::vector<Rows> bands_within(const Scene&, const RenderSettings&, std::uint64_t bytes, bool strictly) const;
 
+  // What render() would run now, what it has kept from the frames before and what it leaves out, and why; many lines, ends with a
+  // newline.
+  std::string explain(const Scene&, const RenderSettings&) const;
+
   std::string describe() const;
 
  private:
@@ -96,7 +104,10 @@ std::pair<RenderSettings, std::string> chosen_for_goal(const Scene&, const Rende
 // Technique and knobs of the frame that would be rendered; no images, no device. Throws InputError as rendering would.
 Frame planned_frame(const Scene&, const RenderSettings&);
 
-// What would run, what is skipped and why; many lines, ends with a newline.
+// What would run where nothing is kept, what is left out and why; many lines, ends with a newline.
 std::string explain(const Scene&, const RenderSettings&);
+
+// What a frame ran, as a tree like that of explain(), with measured times, items and bytes; many lines, ends with a newline.
+std::string stats_text(const Frame&);
 
 }  // namespace airlight

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -43,32 +44,43 @@ std::string quoted(std::string_view text) {
 }
 
 std::string stats_json(const Frame& frame, const Times& times, const std::string& hash) {
-  std::string steps, knobs;
+  std::string steps, skips, knobs;
   for (const StepStats& s : frame.stats.steps) {
     const std::string note = s.note.empty() ? "" : fmt::format(", \"note\": {}", quoted(s.note));
+    std::vector<std::string> inputs;
+    for (const StepInput& input : s.inputs)
+      inputs.push_back(fmt::format("{{ \"name\": {}, \"step\": {} }}", quoted(input.name), input.step));
     std::string residuals;
     if (!s.residuals.empty()) {
       // After a first round nothing may be known of what is left out.
       residuals = fmt::format(", \"residuals\": [{}], \"left_out\": {}, \"converged\": {}", fmt::join(s.residuals, ", "),
                               std::isfinite(s.left_out) ? fmt::format("{}", s.left_out) : "null", s.converged);
     }
-    steps += fmt::format("{}\n    {{ \"name\": {}, \"seconds\": {}, \"items\": {}, \"bytes\": {}, \"reused\": {}{}{} }}",
-                         steps.empty() ? "" : ",", quoted(s.name), s.seconds, s.items, s.bytes, s.reused, residuals, note);
+    steps += fmt::format(
+        "{}\n    {{ \"name\": {}, \"why\": {}, \"inputs\": [{}], \"seconds\": {}, \"estimate\": {}, \"bytes\": {}, \"held\": {}, "
+        "\"items\": {}, \"skipped\": {}, \"reused\": {}{}{} }}",
+        steps.empty() ? "" : ",", quoted(s.name), quoted(s.why), fmt::join(inputs, ", "), s.seconds, s.estimate, s.bytes, s.held,
+        s.items, s.skipped, s.reused, residuals, note);
+  }
+  for (const SkipStats& s : frame.stats.skips) {
+    skips += fmt::format("{}\n    {{ \"rule\": {}, \"what\": {}, \"why\": {} }}", skips.empty() ? "" : ",", quoted(s.rule),
+                         quoted(s.what), quoted(s.why));
   }
   for (const auto& [name, value] : frame.knobs)
     knobs += fmt::format("{}{}: {}", knobs.empty() ? "" : ", ", quoted(name), quoted(value));
   return fmt::format(
       "{{\n  \"version\": {}, \"scene\": {},\n  \"technique\": {}, \"settings\": {{ {} }}, \"device\": {},\n"
-      "  \"seconds\": {{ \"load\": {}, \"render\": {}, \"steps\": {}, \"write\": {} }},\n  \"steps\": [{}\n  ]\n}}\n",
+      "  \"seconds\": {{ \"load\": {}, \"render\": {}, \"steps\": {}, \"write\": {} }},\n  \"steps\": [{}\n  ],\n  \"left_out\": "
+      "[{}\n  ]\n}}\n",
       quoted(version()), quoted(hash), quoted(frame.technique), knobs, quoted(frame.device), times.load, times.render,
-      frame.stats.seconds, times.write, steps);
+      frame.stats.seconds, times.write, steps, skips);
 }
 
 double mebibytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1U << 20U); }
 
 std::uint64_t most_held(const Stats& stats) {
   std::uint64_t most = 0;
-  for (const StepStats& s : stats.steps) most = std::max(most, s.bytes);
+  for (const StepStats& s : stats.steps) most = std::max(most, s.held);
   return most;
 }
 
@@ -86,23 +98,13 @@ void add(Stats& all, const Stats& band) {
     StepStats &sum = all.steps[i], step = band.steps[i];
     sum.seconds += step.seconds;
     sum.items += step.items;
-    sum.bytes = std::max(sum.bytes, step.bytes);
+    sum.held = std::max(sum.held, step.held);
   }
 }
 
 void print_stats(const Frame& frame, const Times& times) {
-  fmt::print("{} on {}\n", frame.technique, frame.device);
-  for (const StepStats& s : frame.stats.steps) {
-    fmt::print("  {:<24} {:>10.3f} ms  {:>10} items {:>9.1f} MiB{}", s.name, 1e3 * s.seconds, s.items, mebibytes(s.bytes),
-               s.reused ? "  reused" : "");
-    if (!s.residuals.empty()) {
-      fmt::print("  {} rounds, the last changed {:.2g}, about {:.2g} are left out", s.residuals.size(), s.residuals.back(),
-                 s.left_out);
-      if (!s.converged) fmt::print(": more than tolerance allows, raise iterations");
-    }
-    fmt::print("{}{}\n", s.note.empty() ? "" : "  ", s.note);
-  }
-  fmt::print("  {:<24} {:>10.3f} ms\n", "all steps, wall time", 1e3 * frame.stats.seconds);
+  fmt::print("{}", stats_text(frame));
+  fmt::print("all steps {:.3f} ms of wall time\n", 1e3 * frame.stats.seconds);
   fmt::print("load {:.3f} s, render {:.3f} s, write {:.3f} s\n", times.load, times.render, times.write);
   fmt::print("at most {:.1f} MiB held by a step, {:.1f} MiB by the program\n", mebibytes(most_held(frame.stats)),
              mebibytes(most_resident()));
@@ -122,10 +124,18 @@ std::vector<std::pair<std::string, std::string>> metadata(const Scene& scene, co
 
 // A line instead, of one of many frames.
 void print_frame_stats(int number, const Frame& frame, const Times& times) {
-  const auto reused =
-      std::count_if(frame.stats.steps.begin(), frame.stats.steps.end(), [](const StepStats& s) { return s.reused; });
-  fmt::print("frame {}: load {:.3f} s, render {:.3f} s, write {:.3f} s, {} steps run, {} reused\n", number, times.load,
-             times.render, times.write, static_cast<std::ptrdiff_t>(frame.stats.steps.size()) - reused, reused);
+  std::map<std::string, int> kept;
+  std::size_t ran = 0;
+  for (const StepStats& s : frame.stats.steps) {
+    if (!s.reused) ++ran;
+    if (s.reused && s.asked) ++kept[s.name];
+  }
+  std::string names;
+  for (const auto& [name, count] : kept)
+    names += fmt::format("{}{}{}", names.empty() ? ", kept from the last frame: " : ", ", name,
+                         count > 1 ? fmt::format(" of {}", count) : "");
+  fmt::print("frame {}: load {:.3f} s, render {:.3f} s, write {:.3f} s, {} steps run{}\n", number, times.load, times.render,
+             times.write, ran, names);
 }
 
 // Renders the frames of a command, one after the other.
@@ -154,9 +164,11 @@ class Sequence {
     std::tie(settings, chosen) = chosen_for_goal(scene, settings, c_.renderer);
     if (!chosen.empty()) chosen += "\n";
     tell(c_.quiet ? "" : chosen, chosen_);
-    const std::string plan = explain(scene, settings);
-    tell(c_.explain ? plan : "", plan_);
-    terminal_.log(LogLevel::debug, plan);
+    if (c_.explain || terminal_.logs(LogLevel::debug)) {
+      const std::string plan = renderer_ ? renderer_->explain(scene, settings) : explain(scene, settings);
+      tell(c_.explain ? plan : "", plan_);
+      terminal_.log(LogLevel::debug, plan);
+    }
 
     const std::string output = output_name(c_, c_.output, number);
     const Extent extent = settings.resolution.value_or(scene.camera.resolution);

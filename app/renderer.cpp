@@ -1,12 +1,17 @@
 #include <algorithm>
 #include <cfenv>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <thread>
 
 #include "app/airlight.h"
+#include "app/plan_tree.h"
 #include "app/supersample.h"
+#include "common/plan/geometry.h"
+#include "common/plan/hash.h"
+#include "common/plan/keys.h"
 #include "common/plan/shadow_quads.h"
 #include "common/reference/reference.h"
 #include "common/spelling.h"
@@ -132,9 +137,14 @@ Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Pro
   backend.run(plan.steps, rows, pass, progress);
   stats.seconds += pass.seconds;
   if (stats.steps.empty()) {
-    stats.steps = pass.steps;
+    describe_steps(plan, pass.steps);
+    stats.steps = std::move(pass.steps);
+    stats.skips = skips_of(plan);
   } else {
-    for (std::size_t i = 0; i < pass.steps.size(); ++i) stats.steps[i].seconds += pass.steps[i].seconds;
+    for (std::size_t i = 0; i < pass.steps.size(); ++i) {
+      stats.steps[i].seconds += pass.steps[i].seconds;
+      stats.steps[i].items += pass.steps[i].items;
+    }
   }
   Images images;
   for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output, rows));
@@ -147,13 +157,38 @@ struct Renderer::State {
   RendererOptions options;
   std::unique_ptr<Backend> backend;
   std::shared_ptr<TransferMaker> transfer;
+  std::uint64_t seen = 0;  // the camera and the technique of the last pass
 
   int threads() const { return threads_of(options); }
 
+  static std::uint64_t camera_key(const Technique& technique, const Scene& scene, const FrameRequest& request) {
+    Hash key;
+    key.add(technique.name);
+    key.add(view_of(scene, request));
+    for (int c = 0; c < 3; ++c) key.add(scene.camera.position[c]);
+    return key.value();
+  }
+  bool holds(Handle h, std::uint64_t key) const { return backend->holds(h, key); }
+  // What is handed from step to step is kept from the second frame on in which the camera stands still; nothing runs for that
+  // alone.
+  Plan plan(const Technique& technique, const Scene& scene, const FrameRequest& request) const {
+    Plan made = technique.plan(scene, request);
+    if (camera_key(technique, scene, request) == seen)
+      keep_images(
+          made, [&](Handle h, std::uint64_t key) { return holds(h, key); }, options.keep);
+    return made;
+  }
+
   Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows, Stats& stats,
-              Progress& progress) {
-    Images images = technique.plan ? run_plan(*backend, technique.plan(scene, request), rows, stats, progress)
-                                   : render_reference(scene, request, rows, threads(), stats, progress);
+Progress& progress) {
+    Images images;
+    if (technique.plan) {
+      const Plan made = plan(technique, scene, request);
+      seen = camera_key(technique, scene, request);
+      images = run_plan(*backend, made, rows, stats, progress);
+    } else {
+      images = render_reference(scene, request, rows, threads(), stats, progress);
+    }
     const Extent extent{request.extent.width, within(rows, request.extent.height).count()};
     for (const std::string& name : request.images) {  // left out because it is black: a light without power
       images.try_emplace(name, extent, image_channels(name));
@@ -226,6 +261,10 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
     }
   }
   const std::vector<StepStats> made = state_->transfer->take_stats();
+  for (StepStats& step : frame.stats.steps) {
+    for (StepInput& input : step.inputs)
+      if (input.step >= 0) input.step += static_cast<int>(made.size());
+  }
   frame.stats.steps.insert(frame.stats.steps.begin(), made.begin(), made.end());
   for (const std::string& name : settings.images) frame.images.push_back({name, images.at(name)});
   return frame;
@@ -294,9 +333,8 @@ std::pair<RenderSettings, std::string> chosen_for_goal(const Scene& scene, const
 
 namespace {
 
-// What of the frame the CPU computes without asking for each pixel what the lights reach; empty where the plan has no shadow
-// planes.
-std::string tiles_without_planes(const Plan& plan) {
+// What of the frame the CPU computes without asking for each pixel what the lights reach.
+void add_tiles_without_planes(const Plan& plan, std::vector<SkipStats>& skips) {
   for (const Step& step : plan.steps) {
     const auto* planes = std::get_if<ShadowPlanes>(&step.what);
     if (!planes) continue;
@@ -305,14 +343,34 @@ std::string tiles_without_planes(const Plan& plan) {
     if (upload == plan.uploads.end()) throw std::logic_error("shadow planes without volumes");
     const std::vector<std::byte> volumes = upload->make();
     const TileCount tiles = count_tiles(planes->view, {volumes, planes->lights.size()}, tile_side);
-    if (tiles.without_planes == 0) return "";
+    if (tiles.without_planes == 0) return;
     char text[160];
-    std::snprintf(text, sizeof text, "  shadow planes in %zu of %zu tiles of %d x %d pixels (%.0f %%): none touches them\n",
-                  tiles.without_planes, tiles.all, tile_side, tile_side,
+    std::snprintf(text, sizeof text, "shadow planes in %zu of %zu tiles of %d x %d pixels (%.0f %%)", tiles.without_planes,
+                  tiles.all, tile_side, tile_side,
                   100 * static_cast<double>(tiles.without_planes) / static_cast<double>(tiles.all));
-    return text;
+    skips.push_back({std::string(name_of(Rule::tiles_without_planes)), text, "none touches them"});
+    return;
   }
-  return "";
+}
+
+using MakePlan = std::function<Plan(const Technique&, const Scene&, const FrameRequest&)>;
+using Held = std::function<bool(Handle, std::uint64_t key)>;
+
+std::string explained(const Scene& scene, const RenderSettings& asked, const RendererOptions& options, const MakePlan& make_plan,
+                      const Held& held) {
+  const auto [settings, chosen] = chosen_for_goal(scene, asked, options);
+  const Technique& technique = chosen_technique(scene, settings);
+  const FrameRequest request = request_for(technique, scene, settings);
+  std::string text = chosen.empty() ? "" : "chosen: " + chosen + "\n";
+  text += std::string(technique.name) + ": " + std::string(technique.summary) + "\n";
+  for (const auto& [name, value] : request.knobs.all()) text += "  " + name + " = " + value + "\n";
+  if (!technique.plan) return text;
+  const Plan plan = make_plan(technique, scene, request);
+  Stats stats = planned_stats(plan, steps_to_run(plan, held));
+  add_tiles_without_planes(plan, stats.skips);
+  text += "steps\n" + plan_tree(stats, false);
+  if (!stats.skips.empty()) text += "left out\n" + left_out(stats);
+  return text;
 }
 
 }  // namespace
@@ -327,23 +385,22 @@ Frame planned_frame(const Scene& scene, const RenderSettings& asked) {
 }
 
 std::string explain(const Scene& scene, const RenderSettings& asked) {
-  const auto [settings, chosen] = chosen_for_goal(scene, asked, {});
-  const Technique& technique = chosen_technique(scene, settings);
-  const FrameRequest request = request_for(technique, scene, settings);
-  std::string text = chosen.empty() ? "" : "chosen: " + chosen + "\n";
-  text += std::string(technique.name) + ": " + std::string(technique.summary) + "\n";
-  for (const auto& [name, value] : request.knobs.all()) text += "  " + name + " = " + value + "\n";
-  if (!technique.plan) return text;
-  const Plan plan = technique.plan(scene, request);
-  text += "steps\n";
-  int number = 0;
-  for (const Step& step : plan.steps) {
-    text += "  " + std::to_string(++number) + ". " + std::string(name_of(step.what)) + ": " + std::string(step.why) + "\n";
-  }
-  const std::string tiles = tiles_without_planes(plan);
-  if (!plan.skips.empty() || !tiles.empty()) text += "left out\n";
-  for (const Plan::Skip& skip : plan.skips) text += "  " + skip.what + ": " + skip.why + "\n";
-  text += tiles;
+  return explained(
+      scene, asked, {}, [](const Technique& t, const Scene& s, const FrameRequest& r) { return t.plan(s, r); },
+      [](Handle, std::uint64_t) { return false; });
+}
+
+std::string Renderer::explain(const Scene& scene, const RenderSettings& asked) const {
+  const DefaultFloats mode;
+  const State& state = *state_;
+  return explained(
+      scene, asked, state.options, [&](const Technique& t, const Scene& s, const FrameRequest& r) { return state.plan(t, s, r); },
+      [&](Handle h, std::uint64_t key) { return state.holds(h, key); });
+}
+
+std::string stats_text(const Frame& frame) {
+  std::string text = frame.technique + " on " + frame.device + "\n" + plan_tree(frame.stats, true);
+  if (!frame.stats.skips.empty()) text += "left out\n" + left_out(frame.stats);
   return text;
 }
 

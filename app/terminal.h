@@ -21,6 +21,7 @@ class Terminal final : public Progress {
 
   void report(std::string_view what, double fraction) override;
   bool stop_requested() const override { return stop_.load(std::memory_order_relaxed); }
+  bool logs(LogLevel level) const { return level <= level_; }
   void log(LogLevel, const std::string& line);
   void stop() { stop_.store(true, std::memory_order_relaxed); }
 

@@ -37,7 +37,7 @@ std::vector<Row> rows() {
   std::vector<Row> all;
   const auto cpu = [&](const std::string& simd, int threads, bool moves) {
     all.push_back({fmt::format("cpu {} {} threads{}", simd, threads, moves ? ", moving camera" : ""),
-                   Renderer({.backend = "cpu", .simd = simd, .threads = threads}),
+                   Renderer({.backend = "cpu", .simd = simd, .threads = threads, .keep = 0}),
                    moves,
                    false,
                    {},
@@ -49,8 +49,8 @@ std::vector<Row> rows() {
   if (has(Simd::avx2)) cpu("avx2", 2, false);
   cpu("scalar", 2, false);
   try {
-    all.push_back({"gl", Renderer({.backend = "gl"}), false, false, {}, {}});
-    all.push_back({"gl, moving camera", Renderer({.backend = "gl"}), true, false, {}, {}});
+    all.push_back({"gl", Renderer({.backend = "gl", .keep = 0}), false, false, {}, {}});
+    all.push_back({"gl, moving camera", Renderer({.backend = "gl", .keep = 0}), true, false, {}, {}});
   } catch (const MachineError& error) {
     fmt::print("# no gl: {}\n", error.what());
   }

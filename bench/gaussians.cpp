@@ -123,7 +123,7 @@ double relative_rmse(const HostImage& image, const HostImage& truth) {
 
 HostImage airlight_of(const Scene& scene, RenderSettings settings) {
   settings.images = {"airlight"};
-  Renderer renderer({.backend = "cpu"});
+  Renderer renderer({.backend = "cpu", .keep = 0});
   return renderer.render(scene, settings).image("airlight");
 }
 

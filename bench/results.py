@@ -109,6 +109,10 @@ def shadows(out):
     return "\n".join(lines_of(os.path.join(out, "shadows.txt"))).strip()
 
 
+def rules(out):
+    return "\n".join(lines_of(os.path.join(out, "rules.txt"))).strip()
+
+
 def sampled(out):
     return "\n".join(lines_of(os.path.join(out, "sampled.txt"))).strip()
 
@@ -205,7 +209,7 @@ def main():
         text = file.read()
     makers = {"machine": (machine, "machine.txt"), "frames": (frames, "frames.csv"), "kernels": (kernels, "kernels.json"),
               "startup": (startup, "startup.txt"), "instructions": (instructions, "instructions.txt"), "pareto": (pareto, "fronts"),
-              "shadows": (shadows, "shadows.txt"),
+              "shadows": (shadows, "shadows.txt"), "rules": (rules, "rules.txt"),
               "propagation": (propagation, "propagation.txt"), "sampled": (sampled, "sampled.txt"),
               "gaussians": (gaussians, "gaussians.txt"), "erf": (erf, "erf.json")}
     for name, (make, needs) in makers.items():

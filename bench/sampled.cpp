@@ -38,7 +38,8 @@ struct Measured {
 void measure(const Scene& loaded, const std::string& name, const std::string& technique) {
   Measured all[3];
   Frame full;
-  std::vector<Renderer> renderers(3);
+  std::vector<Renderer> renderers;
+  for (int k = 0; k < 3; ++k) renderers.emplace_back(RendererOptions{.keep = 0});
   for (int i = -1; i < frames; ++i) {
     Scene scene = loaded;
     for (LightSource& light : scene.lights) light.power *= 1 + 1e-3 * i;  // all but surfaces and volumes is made again

@@ -57,7 +57,7 @@ RenderSettings settings_of(Extent extent, const char* shadows, const char* indir
 class Flicker {
  public:
   Flicker(const Scene& scene, const RenderSettings& settings, const std::string& backend)
-      : scene_(scene), settings_(settings), renderer_({.backend = backend}) {}
+      : scene_(scene), settings_(settings), renderer_({.backend = backend, .keep = 0}) {}
   Frame frame() {
     scene_.lights[0].power *= 1 + 1e-6;
     return renderer_.render(scene_, settings_);
@@ -150,7 +150,7 @@ struct Timed {
 };
 
 Timed timed(Scene scene, const RenderSettings& settings, const std::function<void(Scene&, int)>& change, int frames) {
-  Renderer renderer({.backend = "cpu"});
+  Renderer renderer({.backend = "cpu", .keep = 0});
   std::vector<double> wall;
   std::vector<std::vector<double>> steps;
   Timed result;

@@ -24,8 +24,8 @@ class Backend {
   // Gives a buffer its content; `key` names the content (not 0).
   virtual void upload(Buffer, std::span<const std::byte>, std::uint64_t key) = 0;
 
-  // Whether the buffer's content is held under this key, so that it need not be made or uploaded again.
-  virtual bool holds(Buffer, std::uint64_t key) const = 0;
+  // Whether the content of an image or a buffer is held under this key, so that it need not be made or uploaded again.
+  virtual bool holds(Handle, std::uint64_t key) const = 0;
 
   // Gives an image its content, as an input of a step (parity cases do this).
   virtual void upload(const Image&, std::span<const float>, std::uint64_t key) = 0;

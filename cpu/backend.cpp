@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
+#include "common/algorithms/each_field.h"
 #include "common/plan/keys.h"
 #include "common/plan/rows.h"
 #include "cpu/held_images.h"
@@ -25,9 +27,10 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 int machine_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-// Steps that run together, tile by tile: at most one that is not Domain::pixel, at the head.
+// Steps that run together, tile by tile: at most one that is not Domain::pixel, at the head. Neighbours in the list of those that
+// run.
 struct Group {
-  std::vector<std::size_t> steps;
+  std::span<const std::size_t> steps;
   Extent extent;
   StepRows rows;
 };
@@ -37,26 +40,71 @@ struct HeldPart {
   Rows rows;
 };
 
-// What is held as a whole, or as its rows: what is kept, and what one group hands to another.
-std::vector<HeldPart> held_parts(std::span<const Group> groups, std::span<const Step> steps) {
-  std::map<Handle, std::pair<std::size_t, HeldPart>> written;  // by which group
-  std::map<Handle, HeldPart> held;
+// What a group touches: whole images (or the rows of them that are held), else a place in each worker's scratch.
+struct Place {
+  std::uint32_t id;
+  HeldImage* whole;
+  bool other;  // of another extent
+  std::size_t offset;
+  int first_tile;  // of the group's among those that are held
+};
+
+// What a run() needs meanwhile, kept for its memory: warm frames allocate nothing.
+struct Meanwhile {
+  StepRuns runs;
+  std::vector<StepRows> rows;
+  std::vector<std::size_t> running;  // steps, in order
+  std::vector<Group> groups;
+  std::vector<std::pair<Handle, std::size_t>> writers;  // the group that makes an image
+  std::vector<HeldPart> held;                           // what is kept, and what one group hands to another
+  std::vector<Place> places;
+  std::vector<std::pair<std::uint32_t, std::span<const std::byte>>> inputs;
+
+  void find_groups(std::span<const Step>, const std::vector<bool>& run, bool fuse);
+  void find_held(std::span<const Step>);
+};
+
+void Meanwhile::find_groups(std::span<const Step> steps, const std::vector<bool>& run, bool fuse) {
+  running.clear(), groups.clear();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (run[i]) running.push_back(i);
+  }
+  for (std::size_t k = 0; k < running.size(); ++k) {
+    const Algorithm& what = steps[running[k]].what;
+    const StepRows& made = rows[running[k]];
+    Extent extent;  // of all that it makes
+    each_made<Image>(what, [&](const Image& image) { extent = image.extent; });
+    const bool joins = fuse && !groups.empty() && domain_of(what) == Domain::pixel && groups.back().extent == extent &&
+                       groups.back().rows.computed == made.computed;
+    if (!joins) groups.push_back({std::span(running).subspan(k, 0), extent, made});
+    groups.back().steps = std::span(groups.back().steps.data(), groups.back().steps.size() + 1);
+  }
+}
+
+void Meanwhile::find_held(std::span<const Step> steps) {
+  writers.clear(), held.clear();
+  const auto hold = [&](const Image& image, Rows of) {
+    std::erase_if(held, [&](const HeldPart& h) { return h.image.id == image.id; });
+    held.push_back({image, of});
+  };
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const std::size_t i : groups[g].steps) {
-      for (const Handle input : inputs_of(steps[i].what)) {
-        const auto found = written.find(input);
-        if (found != written.end() && found->second.first != g) held[input] = found->second.second;
-      }
-      for (const Image& image : outputs_of(steps[i].what)) {
-        const HeldPart part{image, groups[g].rows.held};
-        written[image] = {g, part};
-        if (image.keep) held[image] = part;
-      }
+      each_input(steps[i].what, [&](Handle input) {
+        const auto written = std::find_if(writers.rbegin(), writers.rend(), [&](const auto& w) { return w.first == input; });
+        if (written == writers.rend() || written->second == g) return;
+        const Group& writer = groups[written->second];
+        for (const std::size_t j : writer.steps) {
+          each_made<Image>(steps[j].what, [&](const Image& image) {
+            if (image.id == input.id) hold(image, writer.rows.held);
+          });
+        }
+      });
+      each_made<Image>(steps[i].what, [&](const Image& image) {
+        writers.emplace_back(image, g);
+        if (image.keep) hold(image, groups[g].rows.held);
+      });
     }
   }
-  std::vector<HeldPart> parts;
-  for (const auto& [handle, part] : held) parts.push_back(part);
-  return parts;
 }
 
 // A transient image lives in tile scratch when only one group touches it.
@@ -78,6 +126,7 @@ struct CpuBackend::State {
   std::map<std::size_t, ShadowRasteriser> shadow_rasterisers;
   std::map<std::size_t, std::vector<float>> splats;
   std::vector<Scratch> scratch;  // by worker
+  Meanwhile meanwhile;
   int threads_that_ran = 0;
 
   explicit State(const CpuOptions& o) : simd(o.simd), fuse(o.fuse), workers(o.threads > 0 ? o.threads : machine_threads()) {
@@ -103,7 +152,7 @@ struct CpuBackend::State {
   }
 
   std::uint64_t held_bytes() const;
-  std::vector<Group> groups(std::span<const Step>, std::span<const StepRows>, const std::vector<bool>& run) const;
+  void place_images(std::span<const Step>);
   template <class A>
   void run_volume(const A&);
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
@@ -166,19 +215,24 @@ std::uint64_t CpuBackend::State::held_bytes() const {
   return bytes;
 }
 
-std::vector<Group> CpuBackend::State::groups(std::span<const Step> steps, std::span<const StepRows> rows,
-                                             const std::vector<bool>& run) const {
-  std::vector<Group> found;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (!run[i]) continue;
-    const bool volume = domain_of(steps[i].what) == Domain::volume;
-    const Extent extent = volume ? Extent{} : outputs_of(steps[i].what).at(0).extent;
-    const bool joins = fuse && !found.empty() && domain_of(steps[i].what) == Domain::pixel && found.back().extent == extent &&
-                       found.back().rows.computed == rows[i].computed;
-    if (!joins) found.push_back({{}, extent, rows[i]});
-    found.back().steps.push_back(i);
+// Memory for what is held; what another plan or frame had under the same handles goes.
+void CpuBackend::State::place_images(std::span<const Step> steps) {
+  Meanwhile& m = meanwhile;
+  m.find_held(steps);
+  const auto is_held = [&](const Image& image) {
+    return std::any_of(m.held.begin(), m.held.end(), [&](const HeldPart& h) { return h.image.id == image.id; });
+  };
+  for (const std::size_t i : m.running) {
+    each_made<Image>(steps[i].what, [&](const Image& image) {
+      buffers.erase(image);
+      if (!is_held(image)) images.erase(image);
+    });
   }
-  return found;
+  for (const HeldPart& part : m.held) {
+    HeldImage& image = images[part.image];
+    image.key = 0;
+    image.reset(part.image, part.rows);
+  }
 }
 
 void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a, Rows rows) {
@@ -195,30 +249,22 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     for (const Buffer& made : buffers_made_by(head.what)) step.items += made.bytes / sizeof(float);
     if (const auto* a = std::get_if<NetworkIteration>(&head.what)) a->tell(buffer_of<float>(a->residuals), step);
     step.seconds = seconds_since(start);
-    step.bytes = held_bytes();
+    step.held = held_bytes();
     threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
     return;
   }
   const Tiling tiling{group.extent, group.rows.computed};
-  // What the group touches: whole images where they are held, else a place in each worker's scratch.
-  struct Place {
-    std::uint32_t id;
-    HeldImage* whole;
-    bool other;  // of another extent
-    std::size_t offset;
-    int first_tile;  // of the group's among those of the whole image that are held
-  };
-  std::vector<Place> places;
-  std::vector<std::pair<std::uint32_t, std::span<const std::byte>>> inputs;
+  Meanwhile& m = meanwhile;
+  m.places.clear(), m.inputs.clear();
   std::size_t scratch_floats = 0;
   std::uint32_t last_id = 0;
   const auto place = [&](const Image& image) {
-    if (std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.id == image.id; })) return;
+    if (std::any_of(m.places.begin(), m.places.end(), [&](const Place& p) { return p.id == image.id; })) return;
     const auto held = images.find(image);
     const bool other = image.extent != group.extent;
     if (other && held == images.end()) throw std::logic_error("a step reads an image of another extent that is not there");
     const int first_tile = held == images.end() || other ? 0 : held->second.tiles_above(tiling);
-    places.push_back({image.id, held == images.end() ? nullptr : &held->second, other, scratch_floats, first_tile});
+    m.places.push_back({image.id, held == images.end() ? nullptr : &held->second, other, scratch_floats, first_tile});
     if (held == images.end()) {
       scratch_floats += static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
     }
@@ -232,9 +278,9 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
             if constexpr (std::is_same_v<Value, Image>) {
               if (value) place(value);
             } else if constexpr (std::is_same_v<Value, Buffer>) {
-              if (value) inputs.emplace_back(value.id, buffer(value)), last_id = std::max(last_id, value.id);
+              if (value) m.inputs.emplace_back(value.id, buffer(value)), last_id = std::max(last_id, value.id);
             } else if constexpr (std::is_same_v<Value, std::vector<Buffer>>) {
-              for (const Buffer& b : value) inputs.emplace_back(b.id, buffer(b)), last_id = std::max(last_id, b.id);
+              for (const Buffer& b : value) m.inputs.emplace_back(b.id, buffer(b)), last_id = std::max(last_id, b.id);
             }
           });
           const Clock::time_point start = Clock::now();
@@ -248,17 +294,17 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     s.seconds.assign(steps.size(), 0.0);
     s.view.images.assign(last_id + 1, nullptr);
     s.view.others.assign(last_id + 1, nullptr);
-    for (const Place& p : places) {
+    for (const Place& p : m.places) {
       if (p.other) s.view.others[p.id] = p.whole;
     }
     s.view.buffers.assign(last_id + 1, {});
-    for (const auto& [id, bytes] : inputs) s.view.buffers[id] = bytes;
+    for (const auto& [id, bytes] : m.inputs) s.view.buffers[id] = bytes;
   }
-  workers.each(tiling.count(), [&](int t, int worker) {
+  const auto one_tile = [&](int t, int worker) {
     if (progress.stop_requested()) throw Interrupted();
     Scratch& s = scratch[static_cast<std::size_t>(worker)];
     s.view.tile = tiling.tile(t);
-    for (const Place& p : places) {
+    for (const Place& p : m.places) {
       if (!p.other) s.view.images[p.id] = p.whole ? p.whole->tile(p.first_tile + t) : s.floats.data() + p.offset;
     }
     for (const std::size_t i : group.steps) {
@@ -266,12 +312,13 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
       std::visit([&](const auto& a) { run_tile(i, a, s.view, worker); }, steps[i].what);
       s.seconds[i] += seconds_since(start);
     }
-  });
+  };
+  workers.each(tiling.count(), std::cref(one_tile));  // not copied, which would allocate
   threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
   for (const std::size_t i : group.steps) {
     for (const Scratch& s : scratch) stats[i].seconds += s.seconds[i];
     stats[i].items = static_cast<std::uint64_t>(group.extent.width) * static_cast<std::uint64_t>(group.rows.computed.count());
-    stats[i].bytes = held_bytes();
+    stats[i].held = held_bytes();
   }
 }
 
@@ -297,9 +344,11 @@ void CpuBackend::upload(Buffer buffer, std::span<const std::byte> bytes, std::ui
   held.key = key;
 }
 
-bool CpuBackend::holds(Buffer buffer, std::uint64_t key) const {
-  const auto held = state_->buffers.find(buffer);
-  return held != state_->buffers.end() && held->second.key == key;
+bool CpuBackend::holds(Handle h, std::uint64_t key) const {
+  const auto image = state_->images.find(h);
+  const auto buffer = state_->buffers.find(h);
+  return (image != state_->images.end() && image->second.key == key) ||
+         (buffer != state_->buffers.end() && buffer->second.key == key);
 }
 
 void CpuBackend::upload(const Image& image, std::span<const float> rows, std::uint64_t key) {
@@ -313,42 +362,36 @@ void CpuBackend::upload(const Image& image, std::span<const float> rows, std::ui
 void CpuBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Progress& progress) {
   State& s = *state_;
   const Clock::time_point start = Clock::now();
-  const std::vector<StepRows> rows = rows_of(steps, wanted, tile_side);
-  const std::vector<std::uint64_t> keys = step_keys(
-      steps, [&](Handle h) { return s.upload_key(h); }, rows);
-  const std::vector<bool> run = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
-    const auto image = s.images.find(made);
-    const auto buffer = s.buffers.find(made);
-    return (image != s.images.end() && image->second.key == key) || (buffer != s.buffers.end() && buffer->second.key == key);
-  });
-  const std::vector<Group> groups = s.groups(steps, rows, run);
-
-  const std::vector<HeldPart> parts = held_parts(groups, steps);
-  for (const Group& group : groups) {
-    for (const std::size_t i : group.steps) {
-      for (const Image& image : outputs_of(steps[i].what)) {
-        s.buffers.erase(image);
-        if (!image.keep) s.images.erase(image);
-      }
-    }
-  }
-  for (const HeldPart& part : parts) s.images[part.image].reset(part.image, part.rows);
+  Meanwhile& m = s.meanwhile;
+  rows_of(steps, wanted, tile_side, m.rows);
+  m.runs.update(
+      steps, [&s](Handle h) { return s.upload_key(h); }, [this](Handle made, std::uint64_t key) { return holds(made, key); },
+      m.rows);
+  const std::vector<std::uint64_t>& keys = m.runs.keys();
+  const std::vector<bool>& run = m.runs.run();
+  m.find_groups(steps, run, s.fuse);
+  s.place_images(steps);
 
   s.threads_that_ran = 0;
-  stats.steps.clear();
+  stats.steps.resize(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    stats.steps.push_back({std::string(name_of(steps[i].what)), 0, 0, !run[i]});
+    StepStats& step = stats.steps[i];
+    std::string name = std::move(step.name);  // for its memory
+    name = name_of(steps[i].what);
+    step = {};
+    step.name = std::move(name);
+    step.reused = !run[i];
   }
-  for (const Group& group : groups) {
+  for (const Group& group : m.groups) {
     progress.check();
     s.run_group(group, steps, stats.steps, progress);
   }
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!run[i]) continue;
-    for (const Image& image : outputs_of(steps[i].what)) {
+    each_made<Image>(steps[i].what, [&](const Image& image) {
       if (image.keep) s.images.at(image).key = output_key(keys[i], image);
-    }
-    for (const Buffer& buffer : buffers_made_by(steps[i].what)) s.buffers.at(buffer).key = output_key(keys[i], buffer);
+    });
+    each_made<Buffer>(steps[i].what, [&](const Buffer& buffer) { s.buffers.at(buffer).key = output_key(keys[i], buffer); });
   }
   stats.seconds = seconds_since(start);
 }
@@ -366,10 +409,12 @@ void CpuBackend::download(const Buffer& buffer, std::span<std::byte> bytes) {
 }
 
 std::uint64_t CpuBackend::bytes_for(std::span<const Step> steps, Rows wanted) const {
-  const std::vector<Group> groups =
-      state_->groups(steps, rows_of(steps, wanted, tile_side), std::vector<bool>(steps.size(), true));
+  Meanwhile m;
+  rows_of(steps, wanted, tile_side, m.rows);
+  m.find_groups(steps, std::vector<bool>(steps.size(), true), state_->fuse);
+  m.find_held(steps);
   std::uint64_t bytes = 0;
-  for (const HeldPart& part : held_parts(groups, steps)) {
+  for (const HeldPart& part : m.held) {
     const Image& image = part.image;
     bytes += static_cast<std::uint64_t>(Tiling{image.extent, part.rows}.count()) * tile_pixels * sizeof(float) *
              static_cast<std::uint64_t>(image.layers * channels(image.format));

@@ -22,7 +22,7 @@ class CpuBackend final : public Backend {
 
   std::string describe() const override;
   void upload(Buffer, std::span<const std::byte>, std::uint64_t key) override;
-  bool holds(Buffer, std::uint64_t key) const override;
+  bool holds(Handle, std::uint64_t key) const override;
   void upload(const Image&, std::span<const float>, std::uint64_t key) override;
   using Backend::download;
   using Backend::run;

@@ -57,7 +57,8 @@ namespace airlight {
 HWY_EXPORT(environment_indirect);
 
 void run_tile(const EnvironmentIndirect& a, const TileView& view, Simd simd) {
-  const std::vector<float> shininess = shininess_of(a.materials);
+  thread_local std::vector<float> shininess;  // kept for its memory alone
+  find_shininess(a.materials, shininess);
   entry(HWY_DISPATCH_TABLE(environment_indirect), simd)(a, view, shininess);
 }
 

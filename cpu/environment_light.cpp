@@ -72,7 +72,8 @@ namespace airlight {
 HWY_EXPORT(environment_light);
 
 void run_tile(const EnvironmentLight& a, const TileView& view, Simd simd) {
-  const std::vector<float> shininess = shininess_of(a.materials);
+  thread_local std::vector<float> shininess;  // kept for its memory alone
+  find_shininess(a.materials, shininess);
   entry(HWY_DISPATCH_TABLE(environment_light), simd)(a, view, shininess);
 }
 

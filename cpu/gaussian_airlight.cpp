@@ -306,16 +306,19 @@ HWY_EXPORT(gaussian_airlight);
 
 void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
   static_assert(tile_side % bin_side == 0);
-  GaussianPanels panels(a);
-  std::vector<GaussLegendre> rules;  // of one node and more
-  for (int n = 1; n <= a.samples; ++n) rules.emplace_back(n);
-  std::vector<GaussianTerms> terms;
+  // Kept for their memory alone, but for the rules, of one node and more.
+  thread_local GaussianPanels panels;
+  thread_local std::vector<GaussLegendre> rules;
+  thread_local std::vector<GaussianTerms> terms;
+  thread_local AlignedFloats scratch;
+  thread_local LitScratch lit_scratch;
+  panels.begin(a);
+  while (rules.size() < static_cast<std::size_t>(a.samples)) rules.emplace_back(static_cast<int>(rules.size()) + 1);
+  terms.clear();
   for (const GaussianDensity& g : a.gaussians) {
     terms.push_back({1 / g.radius, f32::gaussian_whole(1, g.radius).v, f32::gaussian_whole(g.extinction, g.radius).v,
                      1 / std::max(g.extinction, 1e-37F)});
   }
-  AlignedFloats scratch;
-  LitScratch lit_scratch;
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read

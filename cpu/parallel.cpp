@@ -7,7 +7,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
@@ -177,10 +176,13 @@ void Workers::each(int n, const std::function<void(int, int)>& body) {
 }
 
 int Workers::distinct_threads() const {
-  std::set<std::thread::id> seen;
-  for (const Ran& r : ran_) seen.insert(r.id.load(std::memory_order_relaxed));
-  seen.erase(std::thread::id());
-  return static_cast<int>(seen.size());
+  const auto id = [](const Ran& r) { return r.id.load(std::memory_order_relaxed); };
+  int count = 0;
+  for (auto r = ran_.begin(); r != ran_.end(); ++r) {
+    const bool again = std::any_of(ran_.begin(), r, [&](const Ran& other) { return id(other) == id(*r); });
+    if (id(*r) != std::thread::id() && !again) ++count;
+  }
+  return count;
 }
 
 }  // namespace airlight

@@ -279,8 +279,8 @@ namespace airlight {
 HWY_EXPORT(ray_march);
 
 void run_tile(const RayMarch& a, const TileView& view, Simd simd, std::span<const LitParts> lit) {
-  LitScratch lit_scratch;
-  AlignedFloats scratch;
+  thread_local LitScratch lit_scratch;  // kept for their memory alone
+  thread_local AlignedFloats scratch;
   entry(HWY_DISPATCH_TABLE(ray_march), simd)(a, view, lit, lit_scratch, scratch);
 }
 

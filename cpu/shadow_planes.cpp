@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "cpu/simd.h"
 //
@@ -208,6 +209,12 @@ struct ShadowRasteriser::State {
     Crossings crossings;
     std::vector<LitParts> lit;
   };
+  struct Job {
+    LightVolumes* light;
+    std::size_t chunk, first;
+    const ShadowLight* from;
+  };
+  std::vector<Job> jobs;  // of one prepare(), kept for their memory
   std::vector<LightVolumes> lights;
   mutable std::vector<Worker> workers;
   Simd simd = Simd::scalar;
@@ -223,12 +230,8 @@ void ShadowRasteriser::prepare(const View& view, Rows rows, std::size_t lights, 
   s.workers.resize(static_cast<std::size_t>(workers.threads()));
   const ShadowVolumesView volumes(bytes, lights);
   s.lights.resize(lights);
-  struct Job {
-    LightVolumes* light;
-    std::size_t chunk, first;
-    const ShadowLight* from;
-  };
-  std::vector<Job> jobs;
+  std::vector<State::Job>& jobs = s.jobs;
+  jobs.clear();
   for (std::size_t i = 0; i < lights; ++i) {
     LightVolumes& light = s.lights[i];
     const std::size_t edges = volumes.of(volumes.lights[i]).size();
@@ -238,12 +241,13 @@ void ShadowRasteriser::prepare(const View& view, Rows rows, std::size_t lights, 
     for (std::size_t k = 0; k < light.used; ++k) jobs.push_back({&light, k, k * chunk_size, &volumes.lights[i]});
   }
   const ScreenRays rays(view);
-  workers.each(static_cast<int>(jobs.size()), [&](int j, int) {
-    const Job& job = jobs[static_cast<std::size_t>(j)];
+  const auto make = [&](int j, int) {
+    const State::Job& job = jobs[static_cast<std::size_t>(j)];
     const std::span<const ShadowEdge> all = volumes.of(*job.from);
     job.light->chunks[job.chunk].make(rays, *job.from, all.subspan(job.first, std::min(chunk_size, all.size() - job.first)),
                                       tile_side, rows);
-  });
+  };
+  workers.each(static_cast<int>(jobs.size()), std::cref(make));  // not copied, which would allocate
 }
 
 void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int worker) const {

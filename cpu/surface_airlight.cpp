@@ -27,7 +27,8 @@ static void surface_airlight(const SurfaceAirlight& a, const TileView& view, std
     const LaneSurface surface(a, view, i);
     const Mask hit = surface.hit;
     Real sum[3] = {0.0, 0.0, 0.0};
-    if (any_lane(hit)) {
+    const Real seen = load(through + i);
+    if (any_lane(hit && seen > 0.0)) {  // nothing is seen behind opaque fog
       const LaneMaterial& m = surface.material;
       const Real glossy = max(max(m.specular[0], m.specular[1]), m.specular[2]);
       const bool psf = a.scattering == SurfaceScattering::psf;
@@ -79,7 +80,6 @@ static void surface_airlight(const SurfaceAirlight& a, const TileView& view, std
               fog_albedo);
         }
       }
-      const Real seen = load(through + i);
       for (int c = 0; c < 3; ++c) sum[c] = select(hit, sum[c] * seen, 0.0);
     }
     for (int c = 0; c < 3; ++c) store(sum[c], view.plane(a.indirect, c) + i);
@@ -95,7 +95,8 @@ namespace airlight {
 HWY_EXPORT(surface_airlight);
 
 void run_tile(const SurfaceAirlight& a, const TileView& view, Simd simd) {
-  const std::vector<float> shininess = shininess_of(a.materials);
+  thread_local std::vector<float> shininess;  // kept for its memory alone
+  find_shininess(a.materials, shininess);
   entry(HWY_DISPATCH_TABLE(surface_airlight), simd)(a, view, shininess);
 }
 

@@ -29,7 +29,7 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
       for (int c = 0; c < 3; ++c) indirect[c] = load(view.plane(a.indirect, c) + i);
     }
     Real direct[3] = {0.0, 0.0, 0.0}, ambient[3] = {0.0, 0.0, 0.0};
-    if (any_lane(hit)) {
+    if (any_lane(hit && t > 0.0)) {  // nothing is seen behind opaque fog
       const LaneMaterial& m = surface.material;
       const Real tabulated = brdfs ? lane_brdf(brdf, surface.index) : Real(-1.0);
       for (std::size_t k = 0; k < a.lights.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace airlight {
@@ -203,13 +204,15 @@ void TriangleSetup::run(const SurfaceVisibility& a, Rows rows, std::span<const f
   const Projection projection(a, tiling);
   const std::size_t vertices = positions.size() / 3, count = triangles.size() / 4;
   vertices_.resize(vertices);
-  workers.each(static_cast<int>((vertices + block - 1) / block), [&](int b, int) {
+  // Loops are handed on by reference: copies of what they hold would be allocated.
+  const auto transform = [&](int b, int) {
     const std::size_t first = static_cast<std::size_t>(b) * block, last = std::min(vertices, first + block);
     for (std::size_t i = first; i < last; ++i) vertices_[i] = projection.camera_frame(&positions[i * 3]);
-  });
+  };
+  workers.each(static_cast<int>((vertices + block - 1) / block), std::cref(transform));
   used_ = (count + chunk_size - 1) / chunk_size;
   if (chunks_.size() < used_) chunks_.resize(used_);
-  workers.each(static_cast<int>(used_), [&](int c, int) {
+  const auto project = [&](int c, int) {
     TriangleChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     chunk.triangles.clear();
     const std::size_t first = static_cast<std::size_t>(c) * chunk_size, last = std::min(count, first + chunk_size);
@@ -223,7 +226,8 @@ void TriangleSetup::run(const SurfaceVisibility& a, Rows rows, std::span<const f
       }
     }
     sort_by_tile(chunk, tiling);
-  });
+  };
+  workers.each(static_cast<int>(used_), std::cref(project));
 }
 
 }  // namespace airlight

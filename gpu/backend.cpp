@@ -43,9 +43,11 @@ class GlBackend final : public Backend {
     held.key = key;
   }
 
-  bool holds(Buffer buffer, std::uint64_t key) const override {
-    const auto held = runner_->buffers.find(buffer);
-    return held != runner_->buffers.end() && held->second.key == key;
+  bool holds(Handle h, std::uint64_t key) const override {
+    const auto image = runner_->images.find(h);
+    const auto buffer = runner_->buffers.find(h);
+    return (image != runner_->images.end() && image->second.key == key) ||
+           (buffer != runner_->buffers.end() && buffer->second.key == key);
   }
 
   void upload(const Image& image, std::span<const float> values, std::uint64_t key) override {
@@ -164,12 +166,7 @@ void GlBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Prog
   const std::vector<StepRows> rows = rows_of(steps, wanted, granule);
   const std::vector<std::uint64_t> keys = step_keys(
       steps, [&](Handle h) { return upload_key(h); }, rows);
-  const std::vector<bool> runs = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) {
-    const auto image = runner_->images.find(made);
-    const auto buffer = runner_->buffers.find(made);
-    return (image != runner_->images.end() && image->second.key == key) ||
-           (buffer != runner_->buffers.end() && buffer->second.key == key);
-  });
+  const std::vector<bool> runs = steps_to_run(steps, keys, [&](Handle made, std::uint64_t key) { return holds(made, key); });
 
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (runs[i]) refuse_large(steps[i].what);
@@ -191,7 +188,9 @@ void GlBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Prog
   runner_->begin_run(steps, rows);
   stats.steps.clear();
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    StepStats step{std::string(name_of(steps[i].what)), 0, 0, !runs[i], {}, {}};
+    StepStats step;
+    step.name = name_of(steps[i].what);
+    step.reused = !runs[i];
     if (runs[i]) {
       progress.check();
       const Clock::time_point step_start = Clock::now();
@@ -224,7 +223,7 @@ void GlBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Prog
         const Extent extent = outputs[0].extent;
         step.items = static_cast<std::uint64_t>(extent.width) * static_cast<std::uint64_t>(rows[i].computed.count());
       }
-      step.bytes = held_bytes();
+      step.held = held_bytes();
       step.seconds = seconds_since(step_start);
     }
     stats.steps.push_back(step);

@@ -37,7 +37,8 @@ void main() {
   ivec3 at = ivec3(p, 0);
   float index = texelFetch(material_image, at, 0).x;
   vec3 sum = vec3(0.0);
-  if (index >= 0.0) {
+  float through = texelFetch(transmittance_image, at, 0).x;
+  if (index >= 0.0 && through > 0.0) {  // nothing is seen behind opaque fog
     vec3 diffuse = materials[2 * int(index)].xyz;
     vec4 specular_table = materials[2 * int(index) + 1];
     bool glossy = specular_table.xyz != vec3(0.0);
@@ -85,7 +86,7 @@ void main() {
         sum += reflected * (power_directional.xyz * albedo_extinction.xyz);
       }
     }
-    sum *= texelFetch(transmittance_image, at, 0).x;
+    sum *= through;
   }
   imageStore(indirect_image, at, vec4(sum, 0.0));
 }

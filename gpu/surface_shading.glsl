@@ -32,7 +32,7 @@ void main() {
   float through = texelFetch(transmittance_image, at, 0).x;
   vec3 direct = vec3(0.0);
   vec3 ambient = vec3(0.0);
-  if (index >= 0.0) {
+  if (index >= 0.0 && through > 0.0) {  // nothing is seen behind opaque fog
     int m = int(index) * 7;
     vec3 diffuse = vec3(materials[m], materials[m + 1], materials[m + 2]);
     vec3 specular = vec3(materials[m + 3], materials[m + 4], materials[m + 5]);

@@ -20,7 +20,8 @@ Frames::Frames(const Scene& scene, const std::vector<std::string>& backends, con
     : scene_(scene) {
   for (const std::string& backend : backends) {
     try {
-      const auto made = renderers_.try_emplace(backend, Renderer({.backend = backend, .simd = simd, .threads = threads}));
+      const auto made =
+          renderers_.try_emplace(backend, Renderer({.backend = backend, .simd = simd, .threads = threads, .keep = 0}));
       devices_[backend] = made.first->second.describe();
     } catch (const MachineError& error) {
       not_started_.push_back(backend + ": " + error.what());

@@ -67,7 +67,22 @@ FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
                                           .material = material,
                                           .corners = corners_},
                         "what each pixel sees"});
-  if (lights.size() < scene.lights.size()) plan.skips.push_back({"lights of zero power", "they light nothing"});
+  add_skips_of_the_scene();
+}
+
+void FramePlan::add_skips_of_the_scene() {
+  const auto count = [](const auto& all, auto&& is) { return std::to_string(std::count_if(all.begin(), all.end(), is)); };
+  const auto dark = [](const LightSource& l) { return l.power == glm::dvec3(0); };
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), dark))
+    plan.skips.push_back({Rule::dark_lights, "lights of zero power", "they light nothing"});
+  const auto far_away = [&](const LightSource& l) { return !dark(l) && out_of_reach(scene, l); };
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), far_away))
+    plan.skips.push_back({Rule::lamps_out_of_reach, count(scene.lights, far_away) + " lamps out of reach",
+                          "the fog before them lets nothing through"});
+  const auto hidden = [&](const Surface& s) { return behind_fog(scene, s); };
+  if (std::any_of(scene.surfaces.begin(), scene.surfaces.end(), hidden))
+    plan.skips.push_back({Rule::behind_fog, "light on " + count(scene.surfaces, hidden) + " surfaces",
+                          "the fog before them lets nothing through"});
 }
 
 bool FramePlan::wanted(std::string_view name) const { return request.images.contains(std::string(name)); }
@@ -112,11 +127,11 @@ Buffer FramePlan::add_shadow_volumes(std::uint32_t id, ShadowOrder order) {
   const bool casters = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
                                    [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); });
   if (!casters || lights.empty()) {
-    plan.skips.push_back({"shadow planes", casters ? "no light" : "nothing casts a shadow"});
+    plan.skips.push_back({Rule::no_shadows, "shadow planes", casters ? "no light" : "nothing casts a shadow"});
     return {};
   }
   if (request.knobs.choice("shadows") == "off") {
-    plan.skips.push_back({"shadow planes", "shadows = off"});
+    plan.skips.push_back({Rule::no_shadows, "shadow planes", "shadows = off"});
     return {};
   }
   bool any = false;
@@ -132,11 +147,12 @@ Buffer FramePlan::add_shadow_volumes(std::uint32_t id, ShadowOrder order) {
     }
   }
   if (out_of_reach > 0) {
-    plan.skips.push_back({"silhouettes of " + std::to_string(out_of_reach) + " casters out of reach of a light",
+    plan.skips.push_back({Rule::casters_out_of_reach,
+                          "silhouettes of " + std::to_string(out_of_reach) + " casters out of reach of a light",
                           "the fog before them lets nothing through"});
   }
   if (!any) {
-    plan.skips.push_back({"shadow planes", "no light reaches a caster"});
+    plan.skips.push_back({Rule::no_shadows, "shadow planes", "no light reaches a caster"});
     return {};
   }
   plan.uploads.push_back(shadow_volumes_upload(scene, light_index, order, geometry.positions.key ^ geometry.indices.key, id));
@@ -150,7 +166,7 @@ Image FramePlan::add_lit(Buffer volumes, std::uint32_t id) {
   plan.steps.push_back({ShadowPlanes{.distance = distance,
                                      .volumes = volumes,
                                      .tables = {},
-                                     .lights = lights,
+                                     .lights = of_unit_power(lights),
                                      .view = view,
                                      .phase = scene.medium.phase,
                                      .extinction = extinction,
@@ -169,12 +185,14 @@ Image FramePlan::add_indirect() {
   const bool scatters = (medium.extinction > 0 && medium.albedo != glm::dvec3(0)) || depth_toward_light_;
   const bool any = scatters && !lights.empty() && has_surfaces();
   if (!any || choice == "off") {
-    plan.skips.push_back({"indirect single scattering", any ? "indirect = off" : "no light, no surface or nothing scatters"});
+    plan.skips.push_back(
+        {Rule::no_indirect, "indirect single scattering", any ? "indirect = off" : "no light, no surface or nothing scatters"});
     return {};
   }
   if ((psf || choice == "mean_density") && !depth_toward_light_) {
     const bool uneven = !gaussians_of(scene).empty() || medium.grid;
-    plan.skips.push_back({"light that Gaussians and grids scatter onto surfaces", uneven ? "they absorb all" : "there is none"});
+    plan.skips.push_back({Rule::no_indirect, "light that Gaussians and grids scatter onto surfaces",
+                          uneven ? "they absorb all" : "there is none"});
   }
   if (psf && medium.phase.kind != PhaseKind::isotropic)
     throw InputError("setting indirect: psf is of the isotropic phase function, the scene has another");
@@ -216,11 +234,11 @@ void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t firs
   const Image lit = add_lit(volumes, first_id);
   const bool uneven = !way.gaussians.empty() || way.grid;
   if (!uneven || !has_surfaces() || lights.empty()) {
-    if (uneven) plan.skips.push_back({"light_march", has_surfaces() ? "no light" : "no surface"});
+    if (uneven) plan.skips.push_back({Rule::no_light_march, "light_march", has_surfaces() ? "no light" : "no surface"});
     shade(lit);
     return;
   }
-  way.distance = distance, way.lit = lit, way.lights = lights, way.view = view;
+  way.distance = distance, way.lit = lit, way.lights = of_unit_power(lights), way.view = view;
   way.light_transmittance = handed_on(first_id + 1, Format::r32f, static_cast<int>(lights.size()));
   if (rest_scatters()) depth_toward_light_ = handed_on(next_id_++, Format::r32f, static_cast<int>(lights.size()));
   way.depth_toward_light = depth_toward_light_;
@@ -232,7 +250,7 @@ void FramePlan::shade_through(LightMarch way, Buffer volumes, std::uint32_t firs
 Buffer FramePlan::add_brdfs() {
   if (brdfs.all.empty()) return {};
   if (lights.empty()) {
-    plan.skips.push_back({"tables of reflectances", "no light"});
+    plan.skips.push_back({Rule::no_reflectances, "tables of reflectances", "no light"});
     return {};
   }
   std::size_t values = 0;

@@ -86,6 +86,7 @@ class FramePlan {
   Plan finish();
 
  private:
+  void add_skips_of_the_scene();
   Image image(std::string_view name, Format);
   Image optional_image(std::string_view name, Format);
   Image per_light_image();

@@ -42,7 +42,8 @@ void FramePlan::expect_environment_airlight() {
   if (!scene.environment) return;
   const std::string_view choice = request.knobs.choice("environment_airlight");
   if (scene.medium.empty() || choice == "off") {
-    plan.skips.push_back({"airlight of the environment", scene.medium.empty() ? "no medium" : "environment_airlight = off"});
+    plan.skips.push_back({Rule::environment_airlight, "airlight of the environment",
+                          scene.medium.empty() ? "no medium" : "environment_airlight = off"});
     return;
   }
   if (choice == "published" && scene.medium.phase.kind != PhaseKind::isotropic)
@@ -58,7 +59,8 @@ void FramePlan::scatter_environment_in_fog_alone() {
   airlight = airlight_;
   airlight_ = {};
   if (!optical_depth.keep) optical_depth = {};
-  plan.skips.push_back({"environment_airlight", "no homogeneous medium, and what else scatters it is in the sources"});
+  plan.skips.push_back(
+      {Rule::environment_airlight, "environment_airlight", "no homogeneous medium, and what else scatters it is in the sources"});
 }
 
 // After the technique's own airlight.
@@ -94,7 +96,9 @@ void FramePlan::add_environment_airlight() {
 // Where surfaces hide anything, edges are cut and corners are wanted.
 void FramePlan::expect_environment_shadows() {
   if (!scene.environment) return;
-  const auto skip = [&](const char* why) { plan.skips.push_back({"shadows in the environment's light", why}); };
+  const auto skip = [&](const char* why) {
+    plan.skips.push_back({Rule::environment_shadows, "shadows in the environment's light", why});
+  };
   if (!has_surfaces()) return skip("no surface");
   if (!std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
                    [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); }))

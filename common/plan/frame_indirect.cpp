@@ -54,7 +54,7 @@ std::optional<std::string_view> FramePlan::lacks_environment_indirect() const {
 Image FramePlan::add_environment_indirect(Image scattered) {
   if (!scene.environment) return scattered;
   if (const auto why = lacks_environment_indirect()) {
-    plan.skips.push_back({"indirect light of the environment", std::string(*why)});
+    plan.skips.push_back({Rule::environment_indirect, "indirect light of the environment", std::string(*why)});
     return scattered;
   }
   const bool published = request.knobs.choice("environment_indirect") == "published";

@@ -28,7 +28,7 @@ LightVolumes add_gaussian_light_volumes(FramePlan& frame, const std::vector<Gaus
                                         std::uint32_t injected_id, std::uint32_t depths_id) {
   const std::string_view path = frame.request.knobs.choice("light_path");
   const auto skip = [&](const char* why) {
-    frame.plan.skips.push_back({"optical_depth_propagation", why});
+    frame.plan.skips.push_back({Rule::no_light_volumes, "optical_depth_propagation", why});
     return LightVolumes{};
   };
   if (gaussians.empty() || frame.lights.empty()) return skip(gaussians.empty() ? "no Gaussian" : "no light");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "common/plan/gaussian_shadows.h"
 
@@ -105,11 +106,19 @@ struct GaussianPanels::Met {
 struct GaussianPanels::Neighbourhood {
   static constexpr int side = 4 * bin_side;
 
-  GaussianReach reach;
+  GaussianReach reach{std::vector<GaussianDensity>{}};
   int x = -1, y = -1;                    // its upper left pixel
   std::vector<std::uint32_t> gaussians;  // that its rays may meet, ascending
+  // Of one Build, for their memory.
+  std::vector<Met> met;
+  std::vector<std::uint32_t> stack;
+  std::vector<Range> ranges;
+  std::vector<std::pair<double, double>> stretches;
 
-  explicit Neighbourhood(const GaussianAirlight& a) : reach(a.gaussians) {}
+  void begin(const GaussianAirlight& a) {
+    reach = GaussianReach(a.gaussians);
+    x = y = -1;
+  }
 
   void enter(const GaussianAirlight& a, int square_x, int square_y) {
     const int to_x = square_x - square_x % side, to_y = square_y - square_y % side;
@@ -127,23 +136,27 @@ struct GaussianPanels::Build {
   const GaussianAirlight& a;
   GaussianPanels& out;
   Cone cone;
-  std::vector<Met> met;  // in the order of out.met_
+  std::vector<Met>& met;  // in the order of out.met_
   double sharp;
   bool everywhere;  // something is to be seen also where no Gaussian is
   int most_spared = 0;
   const GaussianReach& reach;
   // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
-  std::vector<std::uint32_t> stack;
-  std::vector<Range> ranges;
+  std::vector<std::uint32_t>& stack;
+  std::vector<Range>& ranges;
   Range last_active{};
 
   Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y)
       : a(algorithm),
         out(panels),
         cone(a.view, x, y, bin_side),
+        met(panels.near_->met),
         sharp(sharpness(a.phase)),
         everywhere(a.extinction > 0 || a.emission != glm::vec3(0)),
-        reach(panels.near_->reach) {
+        reach(panels.near_->reach),
+        stack(panels.near_->stack),
+        ranges(panels.near_->ranges) {
+    met.clear(), stack.clear(), ranges.clear();
     for (const std::uint32_t i : panels.near_->gaussians) meet(a.gaussians[i], i);
   }
 
@@ -330,7 +343,8 @@ struct GaussianPanels::Build {
       ranges.push_back({begin, static_cast<std::uint32_t>(stack.size())});
     }
     // Stretches with Gaussians, joined where they overlap; between and behind them only what is everywhere.
-    std::vector<std::pair<double, double>> stretches;
+    std::vector<std::pair<double, double>>& stretches = out.near_->stretches;
+    stretches.clear();
     for (const Met& m : met) stretches.emplace_back(m.begin, std::min(m.end, limit));
     std::sort(stretches.begin(), stretches.end());
     double at = 0;
@@ -352,13 +366,18 @@ struct GaussianPanels::Build {
   }
 };
 
-GaussianPanels::GaussianPanels(const GaussianAirlight& a) : algorithm_(a), near_(std::make_unique<Neighbourhood>(a)) {}
+GaussianPanels::GaussianPanels() : near_(std::make_unique<Neighbourhood>()) {}
 GaussianPanels::~GaussianPanels() = default;
+
+void GaussianPanels::begin(const GaussianAirlight& a) {
+  algorithm_ = &a;
+  near_->begin(a);
+}
 
 void GaussianPanels::make(int x, int y) {
   panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
-  near_->enter(algorithm_, x, y);
-  Build(algorithm_, *this, x, y).run();
+  near_->enter(*algorithm_, x, y);
+  Build(*algorithm_, *this, x, y).run();
 }
 
 }  // namespace airlight

@@ -42,9 +42,12 @@ class GaussianPanels {
   static constexpr int most_cuts = 96;  // of a panel, over all lights
   static constexpr float cut_ratio = 3;
 
-  // The algorithm must outlive this.
-  explicit GaussianPanels(const GaussianAirlight&);
+  GaussianPanels();
+  explicit GaussianPanels(const GaussianAirlight& a) : GaussianPanels() { begin(a); }
   ~GaussianPanels();
+
+  // What is made from here on is of this algorithm, which must outlive it; memory is kept.
+  void begin(const GaussianAirlight&);
 
   // For the square whose upper left pixel is (x, y). What was held before is forgotten. Squares of a neighbourhood, one after the
   // other, look through its Gaussians alone.
@@ -63,7 +66,7 @@ class GaussianPanels {
   struct Met;  // a Gaussian as the cone of the square's rays meets it
   struct Build;
   struct Neighbourhood;
-  const GaussianAirlight& algorithm_;
+  const GaussianAirlight* algorithm_ = nullptr;
   std::unique_ptr<Neighbourhood> near_;
   std::vector<Panel> panels_;
   std::vector<Shade> shades_;

@@ -96,11 +96,27 @@ Light light_of(const LightSource& from, const glm::dvec3& origin) {
   return to;
 }
 
+bool out_of_reach(const Scene& scene, const LightSource& light) {
+  const double sigma = scene.medium.extinction;
+  if (light.type == LightType::directional || !(sigma > 0)) return false;
+  const double power = std::max({light.power.x, light.power.y, light.power.z});
+  // The least normal float is exp(-87.3). Beside exp(-depth) stand at most: 1/r^2 at the lamp's radius; the sharpest lobe, 1600 a
+  // steradian; and what a ray scatters that passes it, the extinction times pi / radius times the sharpest phase function.
+  const double nearest = 1 / std::min(light.radius, 1.0);
+  const double most = std::log(std::max(power, 1.0)) + 2 * std::log(nearest) + std::log(1e4 * std::max(sigma, 1.0));
+  return sigma * glm::distance(light.position, scene.camera.position) > 88 + most;
+}
+
+std::vector<Light> of_unit_power(std::vector<Light> lights) {
+  for (Light& light : lights) light.power = glm::vec3(1);
+  return lights;
+}
+
 std::vector<Light> lights_of(const Scene& scene, std::vector<std::size_t>* index) {
   std::vector<Light> lights;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightSource& from = scene.lights[i];
-    if (from.power == glm::dvec3(0)) continue;
+    if (from.power == glm::dvec3(0) || out_of_reach(scene, from)) continue;
     lights.push_back(light_of(from, scene.camera.position));
     if (index) index->push_back(i);
   }

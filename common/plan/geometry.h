@@ -14,7 +14,12 @@ namespace airlight {
 
 View view_of(const Scene&, const FrameRequest&);
 
-// Lights of non-zero power only where `index` is given: position in the scene of each light returned.
+// For steps that only ask where lights are: they need not run again where one dims.
+std::vector<Light> of_unit_power(std::vector<Light>);
+// Whether nothing that this lamp sends through the homogeneous part of the medium arrives at the camera: by whatever way, it is
+// no shorter than the straight one, and what is left of it is less than the least float.
+bool out_of_reach(const Scene&, const LightSource&);
+// Lights of non-zero power that are not out of reach; where `index` is given: position in the scene of each light returned.
 std::vector<Light> lights_of(const Scene&, std::vector<std::size_t>* index = nullptr);
 std::vector<Material> materials_of(const Scene&);
 // Gaussians of non-zero extinction, each with its reach: a way that stays beyond it, or a part of one that does, loses less than

@@ -48,9 +48,10 @@ MediumVolumes::MediumVolumes(FramePlan& frame, std::uint32_t first_id) : frame_(
   if (box_ && (injected_ || (cells_ && !frame.lights.empty()))) {
     extinction_ = add_density_injection(frame, box_, as_given(box_.corner), half_unit(), first_id + 1);
   } else if (box_) {
-    frame.plan.skips.push_back({"density_injection", medium.gaussians.size() <= few_gaussians
-                                                         ? "a grid as it is and a few Gaussians in closed form are faster"
-                                                         : "Gaussians of several albedos, that glow, or wanted in closed form"});
+    frame.plan.skips.push_back({Rule::no_injection, "density_injection",
+                                medium.gaussians.size() <= few_gaussians
+                                    ? "a grid as it is and a few Gaussians in closed form are faster"
+                                    : "Gaussians of several albedos, that glow, or wanted in closed form"});
   }
 }
 
@@ -94,7 +95,8 @@ int MediumVolumes::samples(bool in_cells) const {
 
 LightVolumes MediumVolumes::propagate(std::uint32_t first_id) const {
   if (!box_ || frame_.lights.empty()) {
-    frame_.plan.skips.push_back({"optical_depth_propagation", box_ ? "no light" : "the medium is homogeneous"});
+    frame_.plan.skips.push_back(
+        {Rule::no_light_volumes, "optical_depth_propagation", box_ ? "no light" : "the medium is homogeneous"});
     return {};
   }
   const DepthScheme scheme = frame_.request.knobs.choice("scheme") == "published" ? DepthScheme::published : DepthScheme::upwind;

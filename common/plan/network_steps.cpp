@@ -122,7 +122,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   NetworkPlan made;
   made.lattice = lattice, made.particles = uploads[0], made.iteration = iteration;
   if (splatted) {
-    frame.plan.skips.push_back({"source_function", "image = splats: the particles themselves are seen"});
+    frame.plan.skips.push_back({Rule::splatted, "source_function", "image = splats: the particles themselves are seen"});
     return made;
   }
   SourceFunction source{.particles = network.particles,

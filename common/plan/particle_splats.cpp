@@ -49,7 +49,7 @@ void refuse_settings(const FramePlan& frame) {
 // What the homogeneous part scatters and emits on the view ray, seen through everything; absent where there is none.
 Image add_homogeneous(FramePlan& frame, RayMarch march, std::uint32_t first_id) {
   if (!(frame.extinction > 0) && frame.scene.medium.emission == glm::dvec3(0)) {
-    frame.plan.skips.push_back({"ray_march", "no homogeneous part beside the particles"});
+    frame.plan.skips.push_back({Rule::no_fog, "ray_march", "no homogeneous part beside the particles"});
     return {};
   }
   for (GaussianDensity& g : march.gaussians) g.albedo = g.emission = glm::vec3(0);

@@ -11,6 +11,7 @@
 
 #include "common/algorithms/algorithm.h"
 #include "common/plan/knobs.h"
+#include "common/plan/rules.h"
 
 namespace airlight {
 
@@ -32,6 +33,7 @@ struct Plan {
     std::function<std::vector<std::byte>()> make;  // called only when no backend holds it under this key
   };
   struct Skip {
+    Rule rule;
     std::string what, why;
   };
   struct Output {

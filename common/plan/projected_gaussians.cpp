@@ -95,7 +95,7 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
   std::vector<Buffer> to_light;
   for (std::size_t k = 0; k < frame.lights.size(); ++k) {
     const LightSource& source = scene.lights[frame.light_index[k]];
-    const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(k);
+    const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(frame.light_index[k]);
     if (frame.lights[k].directional) {
       // Seen from a place that does not move with the camera, and is near for the sake of single precision.
       const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center));

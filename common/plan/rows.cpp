@@ -1,8 +1,10 @@
 #include "common/plan/rows.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
+#include "common/algorithms/each_field.h"
 #include "common/plan/hash.h"
 
 namespace airlight {
@@ -52,7 +54,23 @@ Rows band_of(int number, int count, int height) {
 }
 
 std::vector<StepRows> rows_of(std::span<const Step> steps, Rows wanted, int granule) {
-  std::vector<StepRows> all(steps.size(), StepRows{{0, 0}, {0, 0}});
+  std::vector<StepRows> all;
+  rows_of(steps, wanted, granule, all);
+  return all;
+}
+
+void rows_of(std::span<const Step> steps, Rows wanted, int granule, std::vector<StepRows>& all) {
+  all.assign(steps.size(), StepRows{{0, 0}, {0, 0}});
+  bool whole = true;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    each_made<Image>(steps[i].what, [&](const Image& image) {
+      const Rows rows{0, image.extent.height};
+      whole = whole && within(wanted, image.extent.height) == rows;
+      all[i] = {rows, rows};
+    });
+  }
+  if (whole) return;
+  std::fill(all.begin(), all.end(), StepRows{{0, 0}, {0, 0}});
   std::map<Handle, Rows> needs;  // of images, by later steps
   std::map<std::pair<int, int>, Rows> held;
   const auto held_of = [&](Extent e) -> Rows& { return held.try_emplace({e.width, e.height}, Rows{0, 0}).first->second; };
@@ -78,7 +96,6 @@ std::vector<StepRows> rows_of(std::span<const Step> steps, Rows wanted, int gran
     const std::vector<Image> made = outputs_of(steps[i].what);
     if (!made.empty()) all[i].held = held_of(made[0].extent);
   }
-  return all;
 }
 
 std::uint64_t key_of(const StepRows& rows, int height) {

@@ -24,6 +24,8 @@ struct StepRows {
 // told by the steps that read them: samples around a pixel, for instance. Rows begin and end at multiples of `granule` or at the
 // border, for squares of so many pixels are told as a whole.
 std::vector<StepRows> rows_of(std::span<const Step>, Rows wanted, int granule);
+// The same into a vector, for its memory: of whole pictures nothing is allocated.
+void rows_of(std::span<const Step>, Rows wanted, int granule, std::vector<StepRows>& all);
 
 // What of this the keys of steps have to tell (common/plan/keys.h): nothing of whole images.
 std::uint64_t key_of(const StepRows&, int height);

@@ -143,7 +143,7 @@ void sample_airlight(FramePlan& frame, std::uint32_t first_id) {
                                 : !is_worth_it(a)                     ? "closed forms are as fast"
                                                                       : nullptr;
           if (why_not) {
-            frame.plan.skips.push_back({"airlight_resolution = " + std::string(resolution), why_not});
+            frame.plan.skips.push_back({Rule::every_pixel, "airlight_resolution = " + std::string(resolution), why_not});
           } else {
             sample(frame, a, last.why, stride, first_id);
           }

@@ -13,6 +13,8 @@ namespace airlight {
 
 namespace {
 
+constexpr double black = 88;  // transmittance() in common/formulas/transmittance.h is 0 from 87 on
+
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 };
@@ -76,11 +78,18 @@ HomogeneousLight light_near_camera(const Scene& scene, std::size_t index) {
 bool shadow_matters(const Scene& scene, const Surface& surface, const LightSource& light) {
   if (!surface.casts_shadow || surface.mesh->triangles.empty()) return false;
   if (light.type == LightType::directional) return true;
-  constexpr double black = 88;  // transmittance() in common/formulas/transmittance.h is 0 from 87 on
   const double sigma = scene.medium.extinction;
   if (sigma * glm::distance(light.position, placed(surface, surface.mesh->positions[0])) <= black) return true;
   const Box box = box_of(surface);
   return !(sigma * glm::distance(light.position, glm::clamp(light.position, box.low, box.high)) > black);
+}
+
+bool behind_fog(const Scene& scene, const Surface& surface) {
+  if (surface.mesh->triangles.empty() || !(scene.medium.extinction > 0)) return false;
+  const glm::dvec3& camera = scene.camera.position;
+  if (scene.medium.extinction * glm::distance(camera, placed(surface, surface.mesh->positions[0])) <= black) return false;
+  const Box box = box_of(surface);
+  return scene.medium.extinction * glm::distance(camera, glm::clamp(camera, box.low, box.high)) > black;
 }
 
 void back_to_front(std::span<ShadowEdge> edges, const ShadowLight& light) {

@@ -18,6 +18,8 @@ HomogeneousLight light_near_camera(const Scene&, std::size_t light);
 
 // Whether a surface's shadow can be seen at all: no for one so far from a point light that its light is below any float there.
 bool shadow_matters(const Scene&, const Surface&, const LightSource&);
+// Whether the homogeneous part lets nothing of the surface through to the camera: then it is not shaded.
+bool behind_fog(const Scene&, const Surface&);
 
 struct ShadowVolumes {
   std::vector<ShadowLight> lights;

@@ -178,12 +178,17 @@ void fill(std::span<float> table, Rays& rays, double w, Weights (*weights_at)(do
 
 std::vector<float> shininess_of(const std::vector<Material>& materials) {
   std::vector<float> found;
+  find_shininess(materials, found);
+  return found;
+}
+
+void find_shininess(const std::vector<Material>& materials, std::vector<float>& found) {
+  found.clear();
   for (const Material& material : materials) {
     if (material.specular != glm::vec3(0)) found.push_back(material.shininess);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
 }
 
 std::vector<float> surface_airlight_tables(Phase phase, const std::vector<float>& shininess) {

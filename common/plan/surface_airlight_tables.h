@@ -14,6 +14,7 @@ constexpr std::size_t surface_airlight_floats =
 
 // Exponents of the materials that reflect specularly, each once, ascending.
 std::vector<float> shininess_of(const std::vector<Material>&);
+void find_shininess(const std::vector<Material>&, std::vector<float>& found);  // into memory that is there
 
 // One table after the other: Lambert, then Phong for each exponent (0..1e4). Computed in double.
 std::vector<float> surface_airlight_tables(Phase, const std::vector<float>& shininess);

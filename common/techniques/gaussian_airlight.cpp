@@ -40,7 +40,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const RayNoise noise = ray_noise(scene);
   std::vector<GaussianDensity> met = gaussians;
   widen(met, noise);
-  if (medium.noise.amplitude > 0 && !(noise.amplitude > 0)) frame.plan.skips.push_back({"noise", "no Gaussians"});
+  if (medium.noise.amplitude > 0 && !(noise.amplitude > 0)) frame.plan.skips.push_back({Rule::no_noise, "noise", "no Gaussians"});
 
   // Section 3: the homogeneous term has a closed form where nothing shades it.
   const bool lamps = std::any_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return !l.directional; });
@@ -50,7 +50,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   const LightVolumes toward_lights = add_gaussian_light_volumes(frame, gaussians, injected_id, depths_id);
   if (!gaussians.empty() && request.knobs.choice("light_path") == "published") {
-    const auto lights = static_cast<std::uint32_t>(frame.lights.size());
+    const auto lights = static_cast<std::uint32_t>(scene.lights.size());
     add_projected_gaussians(frame, gaussians, erf, tables, volumes, depths_id + lights);
   } else {
     auto step = frame.along_view_ray<GaussianAirlight>();
@@ -77,13 +77,13 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   const auto out_of_view =
       std::count_if(met.begin(), met.end(), [&](const GaussianDensity& g) { return !in_view(frame.view, g); });
   if (out_of_view > 0) {
-    frame.plan.skips.push_back({"rays through " + std::to_string(out_of_view) + " Gaussians out of view",
+    frame.plan.skips.push_back({Rule::out_of_view, "rays through " + std::to_string(out_of_view) + " Gaussians out of view",
                                 toward_lights.depths.empty() ? "they may shade what is seen, and do nothing else"
                                                              : "they are in the volumes toward the lights, and nowhere else"});
   }
   if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
-  if (!tables) frame.plan.skips.push_back({"airlight tables", lamps ? "no homogeneous fog" : "no point light"});
+    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
+  if (!tables) frame.plan.skips.push_back({Rule::no_tables, "airlight tables", lamps ? "no homogeneous fog" : "no point light"});
   return frame.finish();
 }
 

@@ -79,11 +79,11 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
 
   // What this scene does not need, and what is not in the network.
   if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
-  if (!any) frame.plan.skips.push_back({"visibility_network", "nothing for particles to stand for"});
+    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
+  if (!any) frame.plan.skips.push_back({Rule::no_network, "visibility_network", "nothing for particles to stand for"});
   if (frame.has_surfaces())
-    frame.plan.skips.push_back(
-        {"surfaces in the network", "light reaches particles through them, from lights and from particles"});
+    frame.plan.skips.push_back({Rule::unhindered_network, "surfaces in the network",
+                                "light reaches particles through them, from lights and from particles"});
   return frame.finish();
 }
 

@@ -46,9 +46,10 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
 
   // What this scene does not need.
   if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({"Gaussians of zero extinction", "they are not there"});
+    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
   if (!uneven)
-    frame.plan.skips.push_back({"marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
+    frame.plan.skips.push_back(
+        {Rule::homogeneous, "marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});
   return frame.finish();
 }
 

@@ -38,7 +38,7 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     frame.plan.steps.push_back({ShadowPlanes{.distance = frame.distance,
                                              .volumes = volumes,
                                              .tables = scattered ? tables : Buffer{},
-                                             .lights = frame.lights,
+                                             .lights = of_unit_power(frame.lights),
                                              .view = frame.view,
                                              .phase = medium.phase,
                                              .order = order,
@@ -66,8 +66,8 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   frame.plan.steps.push_back({step, "light scattered once along the view ray"});
 
   // What this scene does not need.
-  if (scatters && !tables) frame.plan.skips.push_back({"airlight tables", "no point light"});
-  if (!scatters) frame.plan.skips.push_back({"airlight of the lights", "the medium scatters nothing"});
+  if (scatters && !tables) frame.plan.skips.push_back({Rule::no_tables, "airlight tables", "no point light"});
+  if (!scatters) frame.plan.skips.push_back({Rule::no_scattering, "airlight of the lights", "the medium scatters nothing"});
   return frame.finish();
 }
 

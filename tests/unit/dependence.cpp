@@ -76,7 +76,7 @@ class Exact {
 
 }  // namespace
 
-std::vector<bool> Contents::run(const Plan& plan, const Uploaded& uploaded) {
+std::vector<bool> Contents::run(const Plan& plan, const Uploaded& uploaded, bool still) {
   for (const Plan::Upload& upload : plan.uploads) {
     const std::vector<std::byte>& bytes = uploaded.at(upload.buffer);
     held_[upload.buffer] = number("upload" + std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -130,7 +130,7 @@ std::vector<bool> Contents::run(const Plan& plan, const Uploaded& uploaded) {
   for (std::size_t i = plan.steps.size(); i-- > 0;) {
     const Algorithm& what = plan.steps[i].what;
     for (const Image& image : outputs_of(what))
-      if (image.keep ? !is_held(image) : asked.contains(image)) runs[i] = true;
+      if ((image.keep || asked.contains(image)) && !((image.keep || still) && is_held(image))) runs[i] = true;
     for (const Buffer& buffer : buffers_made_by(what))
       if (!is_held(buffer)) runs[i] = true;
     if (!runs[i]) continue;
@@ -140,7 +140,7 @@ std::vector<bool> Contents::run(const Plan& plan, const Uploaded& uploaded) {
     if (!runs[i]) continue;
     for (const Image& image : outputs_of(plan.steps[i].what)) {
       held_.erase(image);
-      if (image.keep) held_[image] = made.at(image);
+      if (image.keep || still) held_[image] = made.at(image);
     }
     for (const Buffer& buffer : buffers_made_by(plan.steps[i].what)) held_[buffer] = made.at(buffer);
   }

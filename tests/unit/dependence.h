@@ -18,7 +18,8 @@ using Uploaded = std::map<Handle, std::vector<std::byte>>;
 class Contents {
  public:
   // The steps of this plan that must run after those before it, and no others. `uploaded`: the bytes of each of its uploads.
-  std::vector<bool> run(const Plan&, const Uploaded& uploaded);
+  // `still`: all images are kept that are made.
+  std::vector<bool> run(const Plan&, const Uploaded& uploaded, bool still);
 
  private:
   using Number = std::size_t;  // one for each content that was ever there

@@ -216,7 +216,7 @@ class EnvironmentShadowSteps : public testing::Test {
     const std::string text = explain(scene, settings), name = "  shadows in the environment's light: ";
     const std::size_t at = text.find(name);
     EXPECT_EQ(text.find("hidden_environment") == text.npos, at != text.npos || !scene.environment);
-    return at == text.npos ? "" : text.substr(at + name.size(), text.find('\n', at) - at - name.size());
+    return at == text.npos ? "" : text.substr(at + name.size(), text.find(" (environment-shadows)\n", at) - at - name.size());
   }
   Renderer renderer{{.backend = "cpu"}};
 };

@@ -1,0 +1,142 @@
+// What a plan leaves out by a rule would not have changed the image: beside a scene that differs by as little as makes the rule
+// not hold. Rules that have a test of their own are not here: docs/RESULTS.md names them all.
+#include "common/plan/rules.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/unit/small_work.h"
+
+namespace airlight {
+namespace {
+
+constexpr double almost_nothing = 1e-30;
+constexpr float none = 1e-20F;  // of an image: what comes of that is far below it
+constexpr float ended = 2e-6F;  // a march ends where a millionth of what is seen is left, which lights without effect may put off
+
+class RuleOf : public testing::TestWithParam<std::string> {
+ protected:
+  bool holds(const Work& work, Rule rule) const {
+    return explain(work.scene, work.settings).find("(" + std::string(name_of(rule)) + ")") != std::string::npos;
+  }
+  Frame render(const Work& work) { return renderer_.render(work.scene, work.settings); }
+  std::vector<float> beauty(const Work& work) { return render(work).image("beauty").values; }
+  // `bound`: of the difference beside the largest value.
+  void leaves_image(Rule rule, const Work& lean, const Work& full, float bound) {
+    EXPECT_TRUE(holds(lean, rule)) << explain(lean.scene, lean.settings);
+    EXPECT_FALSE(holds(full, rule)) << explain(full.scene, full.settings);
+    same_image(rule, lean, full, bound);
+  }
+  void same_image(Rule rule, const Work& lean, const Work& full, float bound) {
+    const std::vector<float> a = beauty(lean), b = beauty(full);
+    float largest = 0, worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      largest = std::max(largest, std::fabs(b[i]));
+      worst = std::max(worst, std::fabs(a[i] - b[i]));
+    }
+    std::printf("%s: %g of the largest value\n", std::string(name_of(rule)).c_str(), static_cast<double>(worst / largest));
+    EXPECT_GT(largest, 0);
+    EXPECT_FALSE(!(worst <= bound * largest)) << name_of(rule);
+  }
+
+ private:
+  Renderer renderer_{{.backend = GetParam(), .threads = 2, .gl_context = "osmesa"}};
+};
+
+TEST_P(RuleOf, LightsWay) {
+  Work lean = small_work("marching");
+  lean.scene.medium.ambient = {0.1, 0.2, 0.3};
+  Work full = lean;
+  lean.scene.lights.clear();
+  for (LightSource& light : full.scene.lights) light.power = glm::dvec3(almost_nothing);
+  leaves_image(Rule::no_light_march, lean, full, ended);
+  lean.scene.surfaces[1].brdf = full.scene.surfaces[1].brdf = small_brdf();
+  leaves_image(Rule::no_reflectances, lean, full, ended);
+}
+
+// A lamp that is near enough to be computed, and has nothing left at the camera, beside one that is left out.
+TEST_P(RuleOf, LampsOutOfReach) {
+  for (const char* technique : {"shadow-planes", "gaussian-airlight", "opacity-propagation", "marching"}) {
+    Work full = small_work(technique);
+    full.scene.medium.extinction = 10;
+    full.scene.medium.ambient = {0.1, 0.2, 0.3};
+    full.scene.lights[0].position = full.scene.camera.position + glm::dvec3(0, 0, -10);
+    Work lean = full;
+    lean.scene.lights[0].position.z -= 4;
+    leaves_image(Rule::lamps_out_of_reach, lean, full, ended);
+  }
+}
+
+// Its light is not computed where fog hides a surface, but its depth is there.
+TEST_P(RuleOf, SurfacesBehindFog) {
+  Work work = small_work("shadow-planes");
+  work.set("indirect", "unbounded");
+  work.settings.images = {"surface", "depth"};
+  EXPECT_FALSE(holds(work, Rule::behind_fog));
+  const auto values = [&](const char* name) { return render(work).image(name).values; };
+  const std::vector<float> depth = values("depth"), lit = values("surface");
+  EXPECT_GT(*std::max_element(lit.begin(), lit.end()), 0);
+  work.scene.medium.extinction = 40;
+  EXPECT_TRUE(holds(work, Rule::behind_fog));
+  const std::vector<float> hidden = values("surface");
+  EXPECT_EQ(*std::max_element(hidden.begin(), hidden.end()), 0);
+  EXPECT_EQ(values("depth"), depth);
+}
+
+TEST_P(RuleOf, LightScatteredOntoSurfaces) {
+  Work lean = small_work("shadow-planes");
+  lean.set("indirect", "unbounded");
+  Work full = lean;
+  lean.scene.medium.albedo = glm::dvec3(0), full.scene.medium.albedo = glm::dvec3(almost_nothing);
+  leaves_image(Rule::no_indirect, lean, full, none);
+}
+
+TEST_P(RuleOf, Environment) {
+  Work lean = small_work("shadow-planes");
+  lean.scene.environment = Environment{small_sky(), {0.3, 0.4, 0.5}, 20};
+  Work full = lean;
+  lean.scene.medium.extinction = 0, full.scene.medium.extinction = almost_nothing;
+  leaves_image(Rule::environment_airlight, lean, full, none);
+  lean.scene.medium.extinction = full.scene.medium.extinction = 0.1;
+  lean.scene.medium.albedo = glm::dvec3(0), full.scene.medium.albedo = glm::dvec3(almost_nothing);
+  lean.set("environment_indirect", "on"), full.set("environment_indirect", "on");
+  leaves_image(Rule::environment_indirect, lean, full, none);
+}
+
+TEST_P(RuleOf, Gaussians) {
+  for (const char* technique : {"gaussian-airlight", "opacity-propagation", "illumination-network", "marching"}) {
+    Work full = small_work(technique), lean = full;
+    lean.scene.medium.gaussians.push_back(small_blob({0, 0, 0}));
+    lean.scene.medium.gaussians.back().extinction = 0;
+    if (std::string(technique) != "opacity-propagation") {
+      leaves_image(Rule::empty_gaussians, lean, full, 0);
+    } else {
+      same_image(Rule::empty_gaussians, lean, full, 0);
+    }
+  }
+}
+
+TEST_P(RuleOf, FogAlone) {
+  Work work = small_work("marching");
+  work.scene.medium.gaussians.clear();
+  EXPECT_TRUE(holds(work, Rule::homogeneous));
+  Work other = work;
+  other.set("light_steps", "16"), other.set("shadow", "march");
+  same_image(Rule::homogeneous, work, other, 0);
+
+  // A network whose Gaussians are none marches as marching does.
+  work.scene.medium.gaussians = {small_blob({0, 0, 0})};
+  work.scene.medium.gaussians[0].extinction = 0;
+  Work network = small_work("illumination-network");
+  network.scene = work.scene;
+  EXPECT_TRUE(holds(network, Rule::no_network));
+  same_image(Rule::no_network, network, work, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, RuleOf, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
+
+}  // namespace
+}  // namespace airlight
