@@ -164,7 +164,7 @@ class Sequence {
     std::tie(settings, chosen) = chosen_for_goal(scene, settings, c_.renderer);
     if (!chosen.empty()) chosen += "\n";
     tell(c_.quiet ? "" : chosen, chosen_);
-    if (c_.explain || terminal_.logs(LogLevel::debug)) {
+    if (c_.explain || terminal_.logs(LogLevel::debug)) {  // it looks at every tile of the image
       const std::string plan = renderer_ ? renderer_->explain(scene, settings) : explain(scene, settings);
       tell(c_.explain ? plan : "", plan_);
       terminal_.log(LogLevel::debug, plan);

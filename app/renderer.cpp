@@ -180,7 +180,7 @@ struct Renderer::State {
   }
 
   Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows, Stats& stats,
-Progress& progress) {
+              Progress& progress) {
     Images images;
     if (technique.plan) {
       const Plan made = plan(technique, scene, request);

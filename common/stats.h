@@ -26,12 +26,12 @@ struct StepStats {
   bool converged = true;
   std::uint64_t held = 0;  // [byte] of the images and buffers that the backend held when the step ended
   // What the plan tells of it.
-  std::string_view why = {};            // it is there
-  std::vector<StepInput> inputs = {};   // in order of the fields
-  std::uint64_t bytes = 0;              // of all that it makes
-  std::uint64_t skipped = 0;            // items that it left as they were
-  double estimate = 0;                  // [s] of thread time on the CPU, before it ran
-  bool asked = true;                    // else it was not run because nothing that ran reads it
+  std::string_view why = {};           // it is there
+  std::vector<StepInput> inputs = {};  // in order of the fields
+  std::uint64_t bytes = 0;             // of all that it makes
+  std::uint64_t skipped = 0;           // items that it left as they were
+  double estimate = 0;                 // [s] of thread time on the CPU, before it ran
+  bool asked = true;                   // else it was not run because nothing that ran reads it
 };
 
 // What the plan left out.

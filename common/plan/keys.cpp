@@ -9,7 +9,7 @@
 namespace airlight {
 
 void StepRuns::make_keys(std::span<const Step> steps, const std::function<std::uint64_t(Handle)>& key_of_upload,
-std::span<const StepRows> rows) {
+                         std::span<const StepRows> rows) {
   keys_.clear(), written_.clear();
   const auto content_of = [&](Handle h) {
     const auto found = std::find_if(written_.rbegin(), written_.rend(), [&](const auto& w) { return w.first == h; });
