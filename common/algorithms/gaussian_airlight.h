@@ -26,7 +26,6 @@ struct GaussianAirlight {
   Phase phase;
   float extinction = 0;         // [1/m] of the homogeneous part
   float sky_distance = 1e30F;   // [m]; 1e30 and above stand for infinity
-  float longest_ray = 1e30F;    // [m] no view ray is longer, be it to a surface or over sky_distance
   glm::vec3 albedo{1, 1, 1};    // of the homogeneous part, 0..1
   glm::vec3 ambient{0, 0, 0};   // [W/m^2/sr] source radiance L_a
   glm::vec3 emission{0, 0, 0};  // [W/m^3/sr] of the homogeneous part
@@ -56,7 +55,6 @@ struct GaussianAirlight {
     v(knob("phase"), s.phase);
     v(knob("extinction", "1/m"), s.extinction);
     v(knob("sky_distance", "m"), s.sky_distance);
-    v(knob("longest_ray", "m"), s.longest_ray);
     v(knob("albedo"), s.albedo);
     v(knob("ambient", "W/m^2/sr"), s.ambient);
     v(knob("emission", "W/m^3/sr"), s.emission);

@@ -329,8 +329,9 @@ struct GaussianPanels::Build {
 
   void run() {
     most_spared = spared();
-    const double longest = static_cast<double>(a.longest_ray), extinction = static_cast<double>(a.extinction);
-    const double limit = std::min({longest, horizon, extinction > 0 ? unseen_depth / extinction : horizon});
+    const double extinction = static_cast<double>(a.extinction);
+    // Not sky_distance: surfaces may be farther away than that.
+    const double limit = std::min(horizon, extinction > 0 ? unseen_depth / extinction : horizon);
     for (std::uint32_t i = 0; i < met.size(); ++i) stack.push_back(i);
     const Range all{0, static_cast<std::uint32_t>(stack.size())};
     for (std::size_t k = 0; k < a.lights.size(); ++k) {

@@ -62,7 +62,6 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
     step.samples = static_cast<int>(request.knobs.number("samples"));
     step.erf = erf;
     step.noise = noise;
-    step.longest_ray = frame.has_surfaces() ? 1e30F : frame.sky_distance;
     frame.plan.steps.push_back({step, "light scattered once along the view ray"});
     sample_airlight(frame, samples_id);  // section 5.4
   }

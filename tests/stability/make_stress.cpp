@@ -1,6 +1,7 @@
 // airlight-stress: hostile scenes by their numbers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -8,9 +9,11 @@
 #include <map>
 #include <string>
 
+#include "tests/stability/formula_stress.h"
 #include "tests/stability/hostile.h"
 #include "tests/stability/trial.h"
 #include "tests/stability/write_scene.h"
+#include "tests/tolerances.h"
 
 using namespace airlight;
 
@@ -19,6 +22,8 @@ namespace {
 int usage() {
   std::fputs(
       "usage: airlight-stress FIRST COUNT [SECONDS]   tries so many scenes from a number on, at most so long; 1 where any fails\n"
+      "       airlight-stress --formulas STREAM CALLS  calls each closed form so often, with numbers of a stream: a table; 1 "
+      "where any is off\n"
       "       airlight-stress --write NUMBER FOLDER   writes one as scene.json, for: airlight render FOLDER/scene.json\n",
       stderr);
   return 2;
@@ -64,6 +69,26 @@ int run(std::uint32_t first, std::uint32_t count, double limit) {
   return failed > 0 ? 1 : 0;
 }
 
+int run_formulas(std::uint32_t stream, std::size_t calls) {
+  constexpr std::size_t at_once = 100000;
+  bool good = true;
+  fmt::print("| formula | domain | largest error | of | allowed | at |\n|---|---|---|---|---|---|\n");
+  for (const StressedFormula& f : stressed_formulas()) {
+    FormulaStress worst;
+    for (std::size_t done = 0; done < calls; done += at_once) {
+      const FormulaStress found = stress(f, stream + static_cast<std::uint32_t>(done / at_once), std::min(at_once, calls - done));
+      worst.not_finite += found.not_finite, worst.other_bits += found.other_bits;
+      if (!(found.measured.error <= worst.measured.error)) worst.measured = found.measured;
+    }
+    const bool held = worst.measured.error <= tolerance(f.bound) && worst.not_finite == 0 && worst.other_bits == 0;
+    good = good && held;
+    fmt::print("| {} | {} | {:.2g} | {} | {:.2g}{} | {} |\n", f.name, f.domain, worst.measured.error, f.scale, tolerance(f.bound),
+               held ? "" : fmt::format(" MISSED, {} not finite, {} of other bits", worst.not_finite, worst.other_bits),
+               worst.measured.where);
+  }
+  return good ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,6 +101,8 @@ int main(int argc, char** argv) {
     fmt::print("{}/scene.json: {}; {}\n", argv[3], asked.text(), hostile.traits);
     return 0;
   }
+  if (argc == 4 && std::string(argv[1]) == "--formulas")
+    return run_formulas(static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)), std::strtoul(argv[3], nullptr, 10));
   if (argc != 3 && argc != 4) return usage();
   return run(static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)),
              static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)), argc > 3 ? std::atof(argv[3]) : 0);
