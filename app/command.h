@@ -10,6 +10,10 @@
 #include "app/airlight.h"
 #include "app/terminal.h"
 
+namespace CLI {
+class App;
+}
+
 namespace airlight {
 
 // A part of a frame: a band of its rows (common/plan/rows.h).
@@ -61,6 +65,23 @@ struct CompareCommand {
   double tolerance = 0;  // of the relative RMSE
 };
 int compare(const CompareCommand&);
+
+struct EditCommand {
+  std::string scene, script, output;
+  std::string frames;  // as those of RenderCommand, but no "all"
+  double fps = 24;
+};
+CLI::App* add_edit_command(CLI::App& program, EditCommand&);
+int edit(const EditCommand&, Terminal&);
+
+struct ViewCommand {
+  std::string scene, output, record;
+  RendererOptions renderer;
+  Extent size{800, 600};  // of the picture
+};
+// `size`: text of the flag.
+CLI::App* add_view_command(CLI::App& program, ViewCommand&, std::string& size);
+int view(const ViewCommand&, Terminal&);
 
 // Of the machine; of a scene file, unless its name is empty.
 int info(const std::string& scene);

@@ -17,11 +17,11 @@ namespace airlight {
 namespace {
 
 // "800x600" into an extent.
-Extent extent_of(const std::string& text) {
+Extent extent_of(const char* flag, const std::string& text) {
   Extent e;
   int used = 0;
   if (std::sscanf(text.c_str(), "%6dx%6d%n", &e.width, &e.height, &used) != 2 || static_cast<std::size_t>(used) != text.size()) {
-    throw InputError("--resolution: expected WIDTHxHEIGHT, found \"" + text + "\"");
+    throw InputError(std::string(flag) + ": expected WIDTHxHEIGHT, found \"" + text + "\"");
   }
   return e;
 }
@@ -54,6 +54,8 @@ constexpr const char* program_examples = R"(Examples
   airlight explain fog.json
   airlight plan lamp.json --frames 0-47 --tiles 4 -o lamp.####.exr
   airlight merge fog.tile-1-of-2.exr fog.tile-2-of-2.exr -o fog.exr
+  airlight edit fog.json strokes.jsonl -o painted.json
+  airlight view fog.json
 )";
 constexpr const char* render_examples = R"(Examples
   airlight render fog.json -o fog.exr --aov depth,airlight --stats
@@ -87,7 +89,9 @@ struct Flags {
   MergeCommand merge;
   std::optional<std::string> tile, memory;
   CompareCommand compare;
-  std::string resolution, log_level = "warning", info_scene;
+  EditCommand edit;
+  ViewCommand view;
+  std::string view_size = "800x600", resolution, log_level = "warning", info_scene;
   std::vector<std::string> settings;
   std::optional<std::string> error, budget;
   bool quiet = false;
@@ -179,7 +183,7 @@ LogLevel level_of(const Flags& f) {
 
 // Names of the design that this version does not have: better an answer than "unknown".
 void refuse_later_versions(int argc, char** argv) {
-  constexpr std::array<std::string_view, 4> commands{"view", "edit", "fit", "convert"};
+  constexpr std::array<std::string_view, 2> commands{"fit", "convert"};
   constexpr std::array<std::string_view, 1> flags{"--seed"};
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -256,6 +260,8 @@ int run(int argc, char** argv) {
   add_output_flag(*merge_command, f.merge.output);
   add_tonemap_flags(*merge_command, f.merge.file);
   merge_command->footer(merge_examples);
+  CLI::App* edit_command = add_edit_command(program, f.edit);
+  CLI::App* view_command = add_view_command(program, f.view, f.view_size);
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
   info_command->add_option("SCENE", f.info_scene, "print what is in a scene instead, and how many frames it has");
 
@@ -266,14 +272,14 @@ int run(int argc, char** argv) {
     throw InputError("airlight: " + std::string(e.what()) + " (airlight --help)");
   }
 
-  static Terminal terminal(level_of(f));  // outlives the thread that waits for signals
+  static Terminal terminal(*view_command ? LogLevel::info : level_of(f));  // outlives the thread that waits for signals
   stop_on_signals(terminal);
   for (const std::string& s : f.settings) f.render.settings.knobs.push_back(setting_of(s));
   f.render.settings.goal = goal_of(f.error, f.budget);
   f.render.quiet = f.quiet;
   if (f.tile) f.render.tile = tile_of(*f.tile);
   if (f.memory) f.render.memory = memory_of(*f.memory);
-  if (!f.resolution.empty()) f.render.settings.resolution = extent_of(f.resolution);
+  if (!f.resolution.empty()) f.render.settings.resolution = extent_of("--resolution", f.resolution);
   if (*render_command) return render(f.render, terminal);
   if (*explain_command) return explain(f.render, terminal);
   if (*plan_command) {
@@ -285,6 +291,11 @@ int run(int argc, char** argv) {
   }
   if (*merge_command) return merge(f.merge, terminal);
   if (*compare_command) return compare(f.compare);
+  if (*edit_command) return edit(f.edit, terminal);
+  if (*view_command) {
+    f.view.size = extent_of("--size", f.view_size);
+    return view(f.view, terminal);
+  }
   if (*info_command) return info(f.info_scene);
   return 2;
 }

@@ -27,10 +27,12 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-std::vector<int> numbers_of(const std::string& asked, const SceneFile& file) {
-  FrameRange range = file.frames();
+}  // namespace
+
+std::vector<int> frame_numbers(const std::string& asked, const std::optional<FrameRange>& all) {
+  FrameRange range = all.value_or(FrameRange{});
   int step = 1;
-  if (asked != "all") {
+  if (asked != "all" || !all) {
     std::string_view text = asked;
     range.first = range.last = take_number(text);
     if (take(text, '-')) {
@@ -38,8 +40,8 @@ std::vector<int> numbers_of(const std::string& asked, const SceneFile& file) {
       if (take(text, 'x')) step = take_number(text);
     }
     if (!text.empty() || range.first < 0 || range.last < range.first || step < 1) {
-      throw InputError(
-          fmt::format("--frames: expected 12, 0-47, 0-47x4 (every fourth) or all, up to {}, found \"{}\"", last_frame, asked));
+      throw InputError(fmt::format("--frames: expected 12, 0-47, 0-47x4 (every fourth){}, up to {}, found \"{}\"",
+                                   all ? " or all" : "", last_frame, asked));
     }
   }
   std::vector<int> frames;
@@ -47,12 +49,10 @@ std::vector<int> numbers_of(const std::string& asked, const SceneFile& file) {
   return frames;
 }
 
-}  // namespace
-
 std::vector<int> frames_of(const RenderCommand& c, SceneFile& file) {
   if (c.frames.empty()) return {file.frames().first};
   if (!file.animated()) throw InputError(c.scene + ": has no \"animation\", expected one for --frames");
-  const std::vector<int> frames = numbers_of(c.frames, file);
+  const std::vector<int> frames = frame_numbers(c.frames, file.frames());
   for (const std::string& name : {c.output, c.stats_file}) {
     if (frames.size() == 1 || name.empty() || has_frame_pattern(name)) continue;
     throw InputError(fmt::format("{}: no place for the number of the frame, expected a name such as frame.####.exr", name));

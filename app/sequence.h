@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@ namespace airlight {
 
 // The frames that the command asks for, each checked as far as its files' names; with several, names of outputs must have a #.
 std::vector<int> frames_of(const RenderCommand&, SceneFile&);
+
+// The frames of "12", "0-47", "0-47x4" (every fourth) or, where there are any, "all".
+std::vector<int> frame_numbers(const std::string& asked, const std::optional<FrameRange>& all);
 
 // An output's name for one of them.
 std::string output_name(const RenderCommand&, const std::string& name, int frame);

@@ -207,7 +207,7 @@ Edit parse_edit(const Node& node) {
   if (node.value().kind != json::Kind::object) node.fail("expected an edit, a JSON object with the key \"edit\"");
   for (const json::Value& member : node.value().items) {
     if (member.key != "edit") continue;
-    const std::string_view name = Node(member, node.file(), "edit").choice(edit_names);
+    const std::string name = Node(member, node.file(), "edit").choice(edit_names);
     return edit_of(static_cast<std::size_t>(std::find(edit_names.begin(), edit_names.end(), name) - edit_names.begin()), node);
   }
   node.fail("missing key, expected \"edit\"");

@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# view_person.sh AIRLIGHT SCENES: uses airlight view as a person would, with real keys and a real mouse, on a display of its own. Waits for what
+# the viewer writes, never for a time; 60 s without it are a failure.
+set -euo pipefail
+airlight=$1 scenes=$2
+work=$(mktemp -d)
+server= viewer=
+finish() {
+  [ -z "$viewer" ] || kill "$viewer" 2>/dev/null || true
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  rm -rf "$work"
+}
+trap finish EXIT
+fail() { echo "FAILED: $*" >&2; cat "$work/log" >&2; exit 1; }
+step() { echo "ok: $*"; }
+
+exec 3<>"$work/number"
+Xvfb -displayfd 3 -screen 0 1024x768x24 >"$work/server.log" 2>&1 &
+server=$!
+wait_for() {  # WHAT COMMAND...
+  local what=$1 tries=0
+  shift
+  until "$@" >/dev/null 2>&1; do
+    tries=$((tries + 1))
+    [ "$tries" -lt 600 ] || fail "no $what"
+    sleep 0.1
+  done
+}
+wait_for "display" test -s "$work/number"
+DISPLAY=:$(head -n 1 "$work/number")
+export DISPLAY
+
+cat >"$work/scene.json" <<'SCENE'
+{
+  "airlight": 1,
+  "camera": { "position": [0, 1.5, 7], "look_at": [0, 1, 0], "vertical_fov": 45, "resolution": [160, 120] },
+  "medium": { "homogeneous": { "extinction": 0.02 }, "gaussians": [ { "center": [1.2, 1.2, 0], "radius": 0.6, "extinction": 1.5 } ] },
+  "lights": [ { "type": "point", "name": "lamp", "position": [0, 1, 0], "intensity": [12, 11, 10] } ],
+  "surfaces": [ { "mesh": "ground.obj" } ]
+}
+SCENE
+cp "$scenes/ground.obj" "$work/"
+
+start() {  # SCENE NAME...
+  "$airlight" view "$@" --size 160x120 --threads 2 >"$work/log" 2>&1 &
+  viewer=$!
+  wait_for "window" xdotool search --onlyvisible --name "airlight $1"
+  window=$(xdotool search --onlyvisible --name "airlight $1" | head -n 1)
+  xdotool windowfocus --sync "$window"
+}
+stop() {
+  kill "$viewer"
+  wait "$viewer" || [ $? -eq 130 ] || fail "the viewer ended with $?"
+  viewer=
+}
+count=0
+# The picture as it is now, when it is whole: $work/N.png
+picture() {
+  count=$((count + 1))
+  xdotool key p
+  wait_for "picture $count" test -s "$work/saved_picture_1.png"
+  mv "$work/saved_picture_1.png" "$work/$count.png"
+}
+drag() {  # X Y X Y: with the left button, in a few moves
+  xdotool mousemove --window "$window" "$1" "$2" mousedown 1
+  for k in 1 2 3 4; do xdotool mousemove --window "$window" $(($1 + ($3 - $1) * k / 4)) $(($2 + ($4 - $2) * k / 4)); done
+  xdotool mouseup 1
+}
+same() { cmp -s "$work/$1.png" "$work/$2.png"; }
+
+cd "$work"
+start scene.json -o saved.json --record edits.jsonl
+picture                                   # 1
+xdotool key 2
+drag 20 70 100 40
+picture                                   # 2
+! same 1 2 || fail "a stroke changes nothing"
+step "painted a stroke"
+xdotool key ctrl+z
+picture                                   # 3
+same 1 3 || fail "undo does not bring the picture back"
+xdotool key ctrl+y
+picture                                   # 4
+same 2 4 || fail "redo does not bring the stroke back"
+step "undone and done again"
+xdotool key 4
+drag 60 60 100 40
+picture                                   # 5
+! same 4 5 || fail "erasing changes nothing"
+step "erased"
+xdotool key 1
+drag 80 60 40 30                          # the lamp's ring is in the middle
+grep -q '"edit": "light"' edits.jsonl || fail "the lamp did not move"
+picture                                   # 6
+! same 5 6 || fail "moving the lamp changes nothing"
+step "dragged the lamp"
+xdotool key b
+picture                                   # 7
+"$airlight" compare 7.png 6.png --tolerance 0.005 || fail "the backends differ"
+! same 7 6 || fail "the backend was not switched"  # its name is in the file
+xdotool key b
+drag 20 100 60 90                         # turns the camera
+picture                                   # 8
+! same 6 8 || fail "the camera did not move"
+step "switched the backend, turned the camera"
+xdotool key ctrl+s
+wait_for "saved scene" test -s saved.json
+stop
+"$airlight" edit scene.json edits.jsonl -o replayed.json
+cmp saved.json replayed.json || fail "the record does not give the scene that was saved"
+step "the record gives the saved scene"
+start saved.json -o saved.json
+picture                                   # 9
+same 8 9 || fail "the saved scene is another"
+step "loaded what was saved: the same picture"
+stop
+echo "$count pictures"
