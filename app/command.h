@@ -83,7 +83,19 @@ struct ViewCommand {
 CLI::App* add_view_command(CLI::App& program, ViewCommand&, std::string& size);
 int view(const ViewCommand&, Terminal&);
 
-// Of the machine; of a scene file, unless its name is empty.
-int info(const std::string& scene);
+struct FitCommand {
+  std::string input;              // OpenVDB or NRRD
+  std::string name = "density";   // of its grid
+  std::string output;             // PLY
+  int count = 1000, steps = 400;  // FitOptions
+  int threads = 0;
+  bool quiet = false;
+};
+int fit(const FitCommand&, Terminal&);
+
+// Of the machine.
+int info();
+// Of a scene, a grid, Gaussians or a mesh, by the name's extension.
+int info_of_file(const std::string& path, Progress&);
 
 }  // namespace airlight

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/command.h"
-#include "common/scene/grid_file.h"
+#include "common/scene/vdb_values.h"
 #include "common/techniques/technique.h"
 #include "cpu/parallel.h"
 #include "cpu/targets.h"
@@ -26,31 +26,9 @@ void print_context(const std::string& context) {
   }
 }
 
-int info_of_scene(const std::string& path) {
-  NoProgress none;
-  SceneFile file(path);
-  const FrameRange frames = file.frames();
-  const Scene scene = file.scene(frames.first, none);
-  const Medium& m = scene.medium;
-  if (file.animated()) {
-    fmt::print("frames {}-{}\ntracks {}\n", frames.first, frames.last, file.tracks());
-    for (const std::string& name : file.numbered_files()) fmt::print("a file a frame: {}\n", name);
-  }
-  fmt::print("resolution {}x{}\n", scene.camera.resolution.width, scene.camera.resolution.height);
-  fmt::print("lights {}{}\n", scene.lights.size(), scene.environment ? " and an environment" : "");
-  fmt::print("medium: extinction {} 1/m, {} Gaussians", m.extinction, m.gaussians.size());
-  if (m.grid)
-    fmt::print(", a grid of {} x {} x {} cells", m.grid->voxels->size.x, m.grid->voxels->size.y, m.grid->voxels->size.z);
-  std::size_t triangles = 0;
-  for (const Surface& s : scene.surfaces) triangles += s.mesh->triangles.size();
-  fmt::print("\nsurfaces {}, {} triangles\n", scene.surfaces.size(), triangles);
-  return 0;
-}
-
 }  // namespace
 
-int info(const std::string& scene) {
-  if (!scene.empty()) return info_of_scene(scene);
+int info() {
   fmt::print("airlight {}\n", version());
   fmt::print("backend cpu, {} threads, SIMD targets:", std::thread::hardware_concurrency());
   for (const Simd simd : available_simd()) fmt::print(" {}", name_of(simd));

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "app/tile.h"
+#include "common/fit/fit_gaussians.h"
 #include "common/spelling.h"
 #include "common/techniques/technique.h"
 
@@ -56,6 +57,8 @@ constexpr const char* program_examples = R"(Examples
   airlight merge fog.tile-1-of-2.exr fog.tile-2-of-2.exr -o fog.exr
   airlight edit fog.json strokes.jsonl -o painted.json
   airlight view fog.json
+  airlight info smoke.vdb
+  airlight fit smoke.vdb -n 2000 -o smoke.ply
 )";
 constexpr const char* render_examples = R"(Examples
   airlight render fog.json -o fog.exr --aov depth,airlight --stats
@@ -91,7 +94,8 @@ struct Flags {
   CompareCommand compare;
   EditCommand edit;
   ViewCommand view;
-  std::string view_size = "800x600", resolution, log_level = "warning", info_scene;
+  FitCommand fit;
+  std::string view_size = "800x600", resolution, log_level = "warning", info_file;
   std::vector<std::string> settings;
   std::optional<std::string> error, budget;
   bool quiet = false;
@@ -175,6 +179,30 @@ void add_render_flags(CLI::App& command, Flags& f) {
       ->capture_default_str();
 }
 
+constexpr const char* fit_examples = R"(Examples
+  airlight fit smoke.vdb -n 2000 -o smoke.ply
+  airlight fit clouds.vdb --name clouds -n 500 --steps 400 -o clouds.ply
+A scene takes the file in place of the grid, with the same placement and scale:
+  "gaussians_file": { "file": "smoke.ply", "scale": 6, "rotate": [-90, 0, 0] }
+)";
+
+CLI::App* add_fit(CLI::App& program, FitCommand& f) {
+  CLI::App* command = program.add_subcommand("fit", "turn the density of a grid into a sum of Gaussians");
+  command->add_option("INPUT", f.input, "OpenVDB (.vdb) or NRRD (.nrrd) file")->required();
+  command->add_option("-o,--output", f.output, "PLY file of Gaussians, for gaussians_file in a scene")->required();
+  command->add_option("-n,--count", f.count, "how many Gaussians")->check(CLI::Range(1, most_fitted))->capture_default_str();
+  command->add_option("--name", f.name, "which grid of an OpenVDB file")->capture_default_str();
+  command->add_option("--steps", f.steps, "of each descent, at most: more take longer and leave less")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--threads", f.threads, "threads of the CPU, 0: as many as there are; the result is the same")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("--quiet", f.quiet, "print errors only");
+  command->footer(fit_examples);
+  return command;
+}
+
 LogLevel level_of(const Flags& f) {
   if (f.quiet || f.log_level == "error") return LogLevel::error;
   if (f.log_level == "info") return LogLevel::info;
@@ -183,7 +211,7 @@ LogLevel level_of(const Flags& f) {
 
 // Names of the design that this version does not have: better an answer than "unknown".
 void refuse_later_versions(int argc, char** argv) {
-  constexpr std::array<std::string_view, 2> commands{"fit", "convert"};
+  constexpr std::array<std::string_view, 1> commands{"convert"};
   constexpr std::array<std::string_view, 1> flags{"--seed"};
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -262,8 +290,10 @@ int run(int argc, char** argv) {
   merge_command->footer(merge_examples);
   CLI::App* edit_command = add_edit_command(program, f.edit);
   CLI::App* view_command = add_view_command(program, f.view, f.view_size);
+  CLI::App* fit_command = add_fit(program, f.fit);
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
-  info_command->add_option("SCENE", f.info_scene, "print what is in a scene instead, and how many frames it has");
+  info_command->add_option("FILE", f.info_file,
+                           "print what is in a file instead: a scene (how many frames it has), a grid, Gaussians, a mesh");
 
   try {
     program.parse(argc, argv);
@@ -272,7 +302,9 @@ int run(int argc, char** argv) {
     throw InputError("airlight: " + std::string(e.what()) + " (airlight --help)");
   }
 
-  static Terminal terminal(*view_command ? LogLevel::info : level_of(f));  // outlives the thread that waits for signals
+  static Terminal terminal(*view_command ? LogLevel::info
+                           : f.fit.quiet ? LogLevel::error
+                                         : level_of(f));  // outlives the thread that waits for signals
   stop_on_signals(terminal);
   for (const std::string& s : f.settings) f.render.settings.knobs.push_back(setting_of(s));
   f.render.settings.goal = goal_of(f.error, f.budget);
@@ -296,7 +328,8 @@ int run(int argc, char** argv) {
     f.view.size = extent_of("--size", f.view_size);
     return view(f.view, terminal);
   }
-  if (*info_command) return info(f.info_scene);
+  if (*fit_command) return fit(f.fit, terminal);
+  if (*info_command) return f.info_file.empty() ? info() : info_of_file(f.info_file, terminal);
   return 2;
 }
 

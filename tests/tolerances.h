@@ -122,6 +122,12 @@ inline constexpr Tolerance tolerances[] = {
      "of a Gaussian's whole: differences of erf_, whose digits end at 1e-7, of cells a twentieth of the radius; a hundred times "
      "more "
      "where a cell is about as wide as the radius, whose negative values are left out"},
+    {"fit_known", 1e-4, "relative: single precision of cells, and Gaussians that end at 6e-6 of their peak"},
+    {"fit_depth_of_cells", 0.06,
+     "relative L2 of depths: linear between centres widens a Gaussian, radius^2 by a third of a cell's square, here by 2 to 7 %"},
+    {"fitted_plume", 0.1,
+     "relative RMSE of a picture: 2000 Gaussians leave 14 % of the density, in details smaller than a pixel of the test"},
+    {"fit_slopes", 1e-3, "relative, by differences of squares that single precision tells to 1e-6, a hundredth apart"},
     {"grid_closed_form", 1e-11, "relative: the reference asks for 1e-11 of each integral, and a constant is exact in it"},
     {"paths_same_medium", 1e-8, "relative: the same paths through the same depths, whose places are known to 1e-13 of the line"},
     {"grid_depth", 1e-8, "optical depth: midpoint sums of a field with kinks at every cell, in steps of less than 1/2000 cell"},

@@ -31,7 +31,7 @@ const json::Value* member(const json::Value& object, std::string_view key) {
 }
 
 // Keys whose strings are names of files.
-constexpr auto file_keys = keys("file", "mesh", "brdf");
+constexpr auto file_keys = keys("file", "mesh", "brdf", "gaussians_file");
 
 using Fail = std::function<void(const std::string&)>;  // throws
 

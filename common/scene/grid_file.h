@@ -1,4 +1,4 @@
-// Voxel grids out of OpenVDB files.
+// Voxel grids out of files, made dense for rendering.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "common/progress.h"
 #include "common/scene/scene.h"
+#include "common/scene/sparse_grid.h"
 
 namespace airlight {
 
@@ -17,16 +18,11 @@ struct GridFile {
   std::string content_hash;   // SHA-256 of the file's bytes
 };
 
-inline constexpr std::uint64_t most_cells = std::uint64_t{1} << 29U;  // of a box: 2 GiB of floats
-
-// The grid of that name, of float or double values (also those stored in 16 bits), in the smallest box around its active values
-// other than 0; inactive ones count as 0. Throws InputError "path: ..." for what is no OpenVDB file or a damaged one; for a name
-// that is not there (it lists those that are); for level sets, vectors, points and other types by their name; for a background or
-// a value that is not allowed (negative, not finite, as a float), saying where; for a grid without a value above 0 and for a box
-// of more than most_cells, before taking memory for it. Throws Interrupted, MachineError when memory is short.
+// What read_sparse_grid() reads, in the smallest box around its values above 0. Throws what that throws, and InputError for a box
+// of more than most_cells, before taking memory for it.
 GridFile read_grid_file(const std::string& path, const std::string& name, Progress&);
 
-// "OpenVDB 10.0.1", as it is at run time.
-std::string grid_library();
+// `path` stands for the grid in messages.
+GridFile dense_grid(const SparseGrid&, const std::string& path, Progress&);
 
 }  // namespace airlight

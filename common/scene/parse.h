@@ -40,6 +40,10 @@ void parse_lights(const Node&, SceneFiles&, Loading&);
 // Into scene.medium.
 void parse_medium(const Node&, SceneFiles&, Loading&, Progress&);
 
+// Onto medium.gaussians, with the medium's albedo and emission where they have none of their own.
+void parse_gaussians(const Node&, Medium&);
+void parse_gaussians_file(const Node&, SceneFiles&, Medium&, Progress&);
+
 Noise parse_noise(const Node&);
 
 void parse_surfaces(const Node&, SceneFiles&, Loading&, Progress&);

@@ -39,19 +39,6 @@ double parse_homogeneous(const Node& node) {
   return o.require("extinction").number(limits::extinction);
 }
 
-Gaussian parse_gaussian(const Node& node, const Medium& medium) {
-  static constexpr auto known = keys("center", "radius", "extinction", "albedo", "emission");
-  const Object o(node, known);
-  Gaussian g;
-  g.center = o.require("center").vec3(limits::coordinate);
-  g.radius = o.require("radius").number(limits::radius);
-  g.extinction = o.require("extinction").number(limits::extinction);
-  const auto albedo = o.find("albedo"), emission = o.find("emission");
-  g.albedo = albedo ? albedo->vec3(limits::fraction) : medium.albedo;
-  g.emission = emission ? emission->vec3(limits::emission) : medium.emission;
-  return g;
-}
-
 // Its box, half a cell wider as its extinction is, within what single precision can hold.
 void check_extent(const Node& node, const GridMedium& grid) {
   const glm::dvec3 size(grid.voxels->size);
@@ -109,9 +96,9 @@ Noise parse_noise(const Node& node) {
 }
 
 void parse_medium(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
-  static constexpr auto known = keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians", "grid");
-  static constexpr std::array<LaterKey, 2> later{
-      {{"gaussians_file", "files of Gaussians are"}, {"particles_file", "files of particles are"}}};
+  static constexpr auto known =
+      keys("phase", "albedo", "ambient", "emission", "homogeneous", "gaussians", "gaussians_file", "grid");
+  static constexpr std::array<LaterKey, 1> later{{{"particles_file", "files of particles are"}}};
   const Object o(node, known, later);
   Medium& m = loading.scene.medium;
   if (const auto phase = o.find("phase")) m.phase = parse_phase(*phase);
@@ -119,9 +106,8 @@ void parse_medium(const Node& node, SceneFiles& files, Loading& loading, Progres
   if (const auto ambient = o.find("ambient")) m.ambient = ambient->vec3(limits::radiance);
   if (const auto emission = o.find("emission")) m.emission = emission->vec3(limits::emission);
   if (const auto homogeneous = o.find("homogeneous")) m.extinction = parse_homogeneous(*homogeneous);
-  if (const auto gaussians = o.find("gaussians")) {
-    for (const Node& g : gaussians->array()) m.gaussians.push_back(parse_gaussian(g, m));
-  }
+  if (const auto gaussians = o.find("gaussians")) parse_gaussians(*gaussians, m);
+  if (const auto file = o.find("gaussians_file")) parse_gaussians_file(*file, files, m, progress);
   if (const auto grid = o.find("grid")) m.grid = parse_grid(*grid, files, loading, progress);
 }
 

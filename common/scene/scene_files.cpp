@@ -39,12 +39,16 @@ std::shared_ptr<const EnvironmentFile> SceneFiles::environment(const Node& named
   return held(environments_, named, "", read_environment_file);
 }
 
+std::shared_ptr<const GaussiansFile> SceneFiles::gaussians(const Node& named, Progress& progress) {
+  return held(gaussians_, named, "", [&](const std::string& path) { return read_gaussians_file(path, progress); });
+}
+
 void SceneFiles::end_frame() {
   const auto sweep = [](auto& files) {
     std::erase_if(files, [](const auto& entry) { return !entry.second.asked; });
     for (auto& [key, one] : files) one.asked = false;
   };
-  sweep(meshes_), sweep(brdfs_), sweep(grids_), sweep(environments_);
+  sweep(meshes_), sweep(brdfs_), sweep(grids_), sweep(environments_), sweep(gaussians_);
 }
 
 }  // namespace airlight

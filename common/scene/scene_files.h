@@ -8,6 +8,7 @@
 
 #include "common/scene/brdf_file.h"
 #include "common/scene/environment_file.h"
+#include "common/scene/gaussians_file.h"
 #include "common/scene/grid_file.h"
 #include "common/scene/mesh_file.h"
 #include "common/scene/reader.h"
@@ -33,6 +34,7 @@ class SceneFiles {
   std::shared_ptr<const BrdfFile> brdf(const Node& named);
   std::shared_ptr<const GridFile> grid(const Node& named, const std::string& name, Progress&);
   std::shared_ptr<const EnvironmentFile> environment(const Node& named);
+  std::shared_ptr<const GaussiansFile> gaussians(const Node& named, Progress&);
 
   // Lets go of the files that were not asked for since the last call.
   void end_frame();
@@ -54,6 +56,7 @@ class SceneFiles {
   Files<BrdfFile> brdfs_;
   Files<GridFile> grids_;
   Files<EnvironmentFile> environments_;
+  Files<GaussiansFile> gaussians_;
 };
 
 }  // namespace airlight

@@ -114,7 +114,9 @@ class TreeCheck {
       : in_(in),
         compression_(compression),
         value_(value_bytes),
-        stored_(half ? 2 : value_bytes),
+        stored_(!half               ? value_bytes
+                : value_bytes == 12 ? 6
+                                    : 2),  // three numbers of a vector
         half_(half),
         progress_(progress) {}
 

@@ -37,8 +37,8 @@ struct VdbTree {
 // other than 222..224 (since 2013), for a file without offsets.
 VdbFile vdb_layout(const std::string& path, std::string_view bytes);
 
-// The tree of a grid of float or double (`value_bytes` 4 or 8) with nodes of 32, 16 and 8 cells a side, whose transform is
-// linear. Throws InputError as above, Interrupted.
+// The tree of a grid of float, double or vectors of three floats (`value_bytes` 4, 8 or 12) with nodes of 32, 16 and 8 cells a
+// side, whose transform is linear. Throws InputError as above, Interrupted.
 VdbTree check_vdb_tree(const std::string& path, std::string_view bytes, const VdbGrid&, std::size_t value_bytes, const Progress&);
 
 // Text of a file, fit for a message of one line: control characters become '?', and it ends after 64 bytes.
