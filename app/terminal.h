@@ -23,7 +23,6 @@ class Terminal final : public Progress {
   bool stop_requested() const override { return stop_.load(std::memory_order_relaxed); }
   bool logs(LogLevel level) const { return level <= level_; }
   void log(LogLevel, const std::string& line);
-  bool logs(LogLevel level) const { return level <= level_; }
   void stop() { stop_.store(true, std::memory_order_relaxed); }
 
  private:
