@@ -10,6 +10,7 @@
 #include "common/algorithms/each_field.h"
 #include "common/plan/keys.h"
 #include "common/plan/rows.h"
+#include "cpu/groups.h"
 #include "cpu/held_images.h"
 #include "cpu/kernels.h"
 #include "cpu/parallel.h"
@@ -26,86 +27,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 int machine_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-// Steps that run together, tile by tile: at most one that is not Domain::pixel, at the head. Neighbours in the list of those that
-// run.
-struct Group {
-  std::span<const std::size_t> steps;
-  Extent extent;
-  StepRows rows;
-};
-
-struct HeldPart {
-  Image image;
-  Rows rows;
-};
-
-// What a group touches: whole images (or the rows of them that are held), else a place in each worker's scratch.
-struct Place {
-  std::uint32_t id;
-  HeldImage* whole;
-  bool other;  // of another extent
-  std::size_t offset;
-  int first_tile;  // of the group's among those that are held
-};
-
-// What a run() needs meanwhile, kept for its memory: warm frames allocate nothing.
-struct Meanwhile {
-  StepRuns runs;
-  std::vector<StepRows> rows;
-  std::vector<std::size_t> running;  // steps, in order
-  std::vector<Group> groups;
-  std::vector<std::pair<Handle, std::size_t>> writers;  // the group that makes an image
-  std::vector<HeldPart> held;                           // what is kept, and what one group hands to another
-  std::vector<Place> places;
-  std::vector<std::pair<std::uint32_t, std::span<const std::byte>>> inputs;
-
-  void find_groups(std::span<const Step>, const std::vector<bool>& run, bool fuse);
-  void find_held(std::span<const Step>);
-};
-
-void Meanwhile::find_groups(std::span<const Step> steps, const std::vector<bool>& run, bool fuse) {
-  running.clear(), groups.clear();
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (run[i]) running.push_back(i);
-  }
-  for (std::size_t k = 0; k < running.size(); ++k) {
-    const Algorithm& what = steps[running[k]].what;
-    const StepRows& made = rows[running[k]];
-    Extent extent;  // of all that it makes
-    each_made<Image>(what, [&](const Image& image) { extent = image.extent; });
-    const bool joins = fuse && !groups.empty() && domain_of(what) == Domain::pixel && groups.back().extent == extent &&
-                       groups.back().rows.computed == made.computed;
-    if (!joins) groups.push_back({std::span(running).subspan(k, 0), extent, made});
-    groups.back().steps = std::span(groups.back().steps.data(), groups.back().steps.size() + 1);
-  }
-}
-
-void Meanwhile::find_held(std::span<const Step> steps) {
-  writers.clear(), held.clear();
-  const auto hold = [&](const Image& image, Rows of) {
-    std::erase_if(held, [&](const HeldPart& h) { return h.image.id == image.id; });
-    held.push_back({image, of});
-  };
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const std::size_t i : groups[g].steps) {
-      each_input(steps[i].what, [&](Handle input) {
-        const auto written = std::find_if(writers.rbegin(), writers.rend(), [&](const auto& w) { return w.first == input; });
-        if (written == writers.rend() || written->second == g) return;
-        const Group& writer = groups[written->second];
-        for (const std::size_t j : writer.steps) {
-          each_made<Image>(steps[j].what, [&](const Image& image) {
-            if (image.id == input.id) hold(image, writer.rows.held);
-          });
-        }
-      });
-      each_made<Image>(steps[i].what, [&](const Image& image) {
-        writers.emplace_back(image, g);
-        if (image.keep) hold(image, groups[g].rows.held);
-      });
-    }
-  }
-}
 
 // A transient image lives in tile scratch when only one group touches it.
 struct Scratch {
