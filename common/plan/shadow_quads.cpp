@@ -72,7 +72,8 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
     std::uint32_t quad;
     int row, from, to;  // tiles
   };
-  std::vector<Span> spans;
+  thread_local std::vector<Span> spans;  // kept for its memory alone, as `at` below
+  spans.clear();
   const auto function = [&](const glm::dvec3& w) {
     const double values[3] = {w.x, w.y, w.z};
     return rays.along(values);
@@ -123,7 +124,8 @@ void ShadowQuads::make(const ScreenRays& rays, const ShadowLight& light, std::sp
   }
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
   members.resize(begin.back());
-  std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
+  thread_local std::vector<std::uint32_t> at;
+  at.assign(begin.begin(), begin.end() - 1);
   for (const Span& s : spans) {
     for (int column = s.from; column <= s.to; ++column) members[at[tile_at(column, s.row)]++] = s.quad;
   }

@@ -36,12 +36,12 @@ TEST(PlanTree, TellsInputsReasonsAndCosts) {
   const Work work = lit_blobs();
   const std::string text = explain(work.scene, work.settings);
   std::printf("%s", text.c_str());
-  tells(text,
-        {"\n  compose: surface + airlight (about ", "\n    surface <- surface_shading: direct light on the surfaces",
-         "    airlight <- ray_march: ", "depths <- optical_depth_propagation of 2: the optical depth from a light to everywhere",
-         "voxels <- density_injection: the medium's extinction on a grid (about ", "<- surface_visibility, above\n",
-         "positions, normals, triangles <- the scene\n", "\nleft out\n",
-         "indirect single scattering: indirect = off (no-indirect)\n"});
+  tells(text, {"\n  compose: surface + airlight (about ", "\n    surface <- surface_shading: direct light on the surfaces",
+               "\n    airlight <- ray_march, above\n", "transmittance <- ray_march: the view ray through the medium",
+               "depths <- optical_depth_propagation of 2: the optical depth from a light to everywhere",
+               "voxels <- density_injection: the medium's extinction on a grid (about ", "<- surface_visibility, above\n",
+               "positions, normals, triangles <- the scene\n", "\nleft out\n",
+               "indirect single scattering: indirect = off (no-indirect)\n"});
   EXPECT_EQ(count(text, ": what each pixel sees"), 1U) << text;
   EXPECT_EQ(text.find("kept"), std::string::npos) << text;
 }
