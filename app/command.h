@@ -23,6 +23,7 @@ struct TileNumber {
 
 struct RenderCommand {
   std::string scene;
+  std::optional<double> fog;  // [1/m] extinction in place of the scene's
   std::string output;
   RendererOptions renderer;
   RenderSettings settings;
@@ -82,6 +83,13 @@ struct ViewCommand {
 // `size`: text of the flag.
 CLI::App* add_view_command(CLI::App& program, ViewCommand&, std::string& size);
 int view(const ViewCommand&, Terminal&);
+
+struct ConvertCommand {
+  std::string input;   // glTF, or a mesh
+  std::string output;  // a scene file
+  std::optional<double> fog;
+};
+int convert(const ConvertCommand&, Terminal&);
 
 struct FitCommand {
   std::string input;              // OpenVDB or NRRD

@@ -31,12 +31,16 @@ int fit(const FitCommand& c, Terminal& terminal) {
                                    fitted.density_error));
   if (c.quiet) return 0;
 
+  fmt::print("{} Gaussians; relative L2 error: density {:.3f} %", file.gaussians.size(), 100 * fitted.density_error);
+  if (grid.size(0) * grid.size(1) * grid.size(2) > static_cast<double>(most_cells)) {
+    fmt::print(" (optical depth: not told, for a box of more than {} cells)\n", most_cells);
+    return 0;
+  }
   // Only here the grid becomes dense.
   const GridFile dense = dense_grid(grid, c.input, terminal);
   GridMedium medium;
   medium.voxels = dense.voxels, medium.transform = dense.transform;
-  fmt::print("{} Gaussians; relative L2 error: density {:.3f} %, optical depth {:.3f} % on {} random rays\n",
-             file.gaussians.size(), 100 * fitted.density_error, 100 * relative_depth_error(file.gaussians, medium, rays), rays);
+  fmt::print(", optical depth {:.3f} % on {} random rays\n", 100 * relative_depth_error(file.gaussians, medium, rays), rays);
   return 0;
 }
 

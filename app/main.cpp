@@ -10,6 +10,7 @@
 #include "app/command.h"
 #include "app/tile.h"
 #include "common/fit/fit_gaussians.h"
+#include "common/scene/limits.h"
 #include "common/spelling.h"
 #include "common/techniques/technique.h"
 
@@ -61,6 +62,7 @@ constexpr const char* program_examples = R"(Examples
   airlight fit smoke.vdb -n 2000 -o smoke.ply
 )";
 constexpr const char* render_examples = R"(Examples
+  airlight render street.glb -o street.png --visibility 80 --exposure 8
   airlight render fog.json -o fog.exr --aov depth,airlight --stats
   airlight render fog.json -o fog.png --supersample 3 --tonemap reinhard
   airlight render smoke.json -o smoke.exr --error 1%
@@ -95,11 +97,23 @@ struct Flags {
   EditCommand edit;
   ViewCommand view;
   FitCommand fit;
+  ConvertCommand convert;
   std::string view_size = "800x600", resolution, log_level = "warning", info_file;
   std::vector<std::string> settings;
   std::optional<std::string> error, budget;
   bool quiet = false;
 };
+
+void add_fog_flags(CLI::App& command, std::optional<double>& fog) {
+  CLI::Option* extinction = command.add_option("--fog", fog, "extinction of homogeneous fog [1/m], in place of the scene's")
+                                ->check(CLI::Range(limits::extinction.least, limits::extinction.most));
+  command
+      .add_option_function<double>(
+          "--visibility", [&fog](double metres) { fog = limits::koschmieder / metres; },
+          "the same as the distance [m] at which 2 % of contrast are left")
+      ->check(CLI::Range(limits::koschmieder / limits::extinction.most, 1e9))
+      ->excludes(extinction);
+}
 
 void add_scene_flags(CLI::App& command, Flags& f) {
   std::vector<std::string> names{"auto"};
@@ -107,6 +121,7 @@ void add_scene_flags(CLI::App& command, Flags& f) {
   std::string list;
   for (const std::string& n : names) list += (list.empty() ? "" : " | ") + n;
   command.add_option("SCENE", f.render.scene, "scene file (JSON, glTF)")->required();
+  add_fog_flags(command, f.render.fog);
   command.add_option("--technique", f.render.settings.technique, list)->capture_default_str();
   command.add_option("--set", f.settings, "NAME=VALUE, a setting of the technique; may be repeated")
       ->take_all()
@@ -203,23 +218,25 @@ CLI::App* add_fit(CLI::App& program, FitCommand& f) {
   return command;
 }
 
+constexpr const char* convert_examples = R"(Examples
+  airlight convert street.glb -o street.json
+  airlight convert street.glb -o street.json --visibility 80
+  airlight convert bunny.obj -o bunny.json --fog 0.5
+)";
+
+CLI::App* add_convert(CLI::App& program, ConvertCommand& c) {
+  CLI::App* command = program.add_subcommand("convert", "write a glTF file or a mesh as a scene file");
+  command->add_option("INPUT", c.input, "glTF file with a camera, or a mesh, which gets a camera and a sun")->required();
+  command->add_option("-o,--output", c.output, "scene file (.json); it names the input's meshes")->required();
+  add_fog_flags(*command, c.fog);
+  command->footer(convert_examples);
+  return command;
+}
+
 LogLevel level_of(const Flags& f) {
   if (f.quiet || f.log_level == "error") return LogLevel::error;
   if (f.log_level == "info") return LogLevel::info;
   return f.log_level == "debug" ? LogLevel::debug : LogLevel::warning;
-}
-
-// Names of the design that this version does not have: better an answer than "unknown".
-void refuse_later_versions(int argc, char** argv) {
-  constexpr std::array<std::string_view, 1> commands{"convert"};
-  constexpr std::array<std::string_view, 1> flags{"--seed"};
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    const bool command = i == 1 && std::find(commands.begin(), commands.end(), word) != commands.end();
-    const bool flag = std::any_of(flags.begin(), flags.end(),
-                                  [&](std::string_view f) { return word == f || word.starts_with(std::string(f) + "="); });
-    if (command || flag) throw InputError(std::string(word.substr(0, word.find('='))) + ": not in this version");
-  }
 }
 
 // "4G" in bytes.
@@ -251,7 +268,6 @@ std::string given(const CLI::App& command, bool of_whole_pictures) {
 }
 
 int run(int argc, char** argv) {
-  refuse_later_versions(argc, argv);
   Flags f;
   CLI::App program("airlight renders fog, and lamps and surfaces in it.", "airlight");
   program.set_version_flag("--version", "airlight " + std::string(version()));
@@ -291,6 +307,7 @@ int run(int argc, char** argv) {
   CLI::App* edit_command = add_edit_command(program, f.edit);
   CLI::App* view_command = add_view_command(program, f.view, f.view_size);
   CLI::App* fit_command = add_fit(program, f.fit);
+  CLI::App* convert_command = add_convert(program, f.convert);
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");
   info_command->add_option("FILE", f.info_file,
                            "print what is in a file instead: a scene (how many frames it has), a grid, Gaussians, a mesh");
@@ -329,6 +346,7 @@ int run(int argc, char** argv) {
     return view(f.view, terminal);
   }
   if (*fit_command) return fit(f.fit, terminal);
+  if (*convert_command) return convert(f.convert, terminal);
   if (*info_command) return f.info_file.empty() ? info() : info_of_file(f.info_file, terminal);
   return 2;
 }

@@ -12,9 +12,11 @@
 #include "app/command.h"
 #include "app/sequence.h"
 #include "app/tile.h"
+#include "common/scene/gltf_scene.h"
 #include "common/scene/image_format.h"
 #include "common/scene/image_writer.h"
 #include "common/scene/merge.h"
+#include "common/scene/sha256.h"
 #include "common/scene/temporary_file.h"
 
 namespace airlight {
@@ -138,11 +140,30 @@ void print_frame_stats(int number, const Frame& frame, const Times& times) {
              times.write, ran, names);
 }
 
+// With --fog or --visibility, which the scene's hash has to tell, too: --resume goes by it.
+Scene with_fog(Scene scene, const RenderCommand& c) {
+  if (!c.fog) return scene;
+  if (*c.fog == 0 && scene.medium.emission != glm::dvec3(0) && !std::isfinite(scene.sky_distance))
+    throw InputError("--fog: 0, but the medium's emission adds up to infinity without extinction or sky_distance");
+  scene.medium.extinction = *c.fog;
+  Sha256 hash;
+  hash.add(fmt::format("{} fog {}", scene.hash, *c.fog));
+  scene.hash = hash.hex();
+  return scene;
+}
+
+// What of a glTF scene is not rendered.
+void tell_notes(const RenderCommand& c, Terminal& terminal) {
+  for (const std::string& note : gltf_notes(c.scene)) terminal.log(LogLevel::warning, note);
+}
+
 // Renders the frames of a command, one after the other.
 class Sequence {
  public:
   Sequence(const RenderCommand& c, Terminal& terminal)
-      : c_(c), terminal_(terminal), file_(c.scene), frames_(frames_of(c, file_)), progress_(terminal, frames_.size()) {}
+      : c_(c), terminal_(terminal), file_(c.scene), frames_(frames_of(c, file_)), progress_(terminal, frames_.size()) {
+    tell_notes(c, terminal);
+  }
 
   void render(const RenderSettings& settings) {
     for (const int frame : frames_) {
@@ -156,7 +177,7 @@ class Sequence {
   bool render_frame(int number, RenderSettings settings) {
     Times times;
     const Clock::time_point start = Clock::now();
-    const Scene scene = file_.scene(number, progress_);
+    const Scene scene = with_fog(file_.scene(number, progress_), c_);
     const Clock::time_point loaded = Clock::now();
     times.load = seconds_between(start, loaded);
     terminal_.log(LogLevel::debug, fmt::format("{}: loaded in {:.3f} s, {}", c_.scene, times.load, scene.hash));
@@ -268,7 +289,8 @@ int explain(const RenderCommand& c, Terminal& terminal) {
   RenderSettings settings = c.settings;
   settings.images = {"beauty"};
   settings.images.insert(settings.images.end(), c.aovs.begin(), c.aovs.end());
-  fmt::print("{}", explain(load_scene(c.scene, terminal), settings));
+  tell_notes(c, terminal);
+  fmt::print("{}", explain(with_fog(load_scene(c.scene, terminal), c), settings));
   return 0;
 }
 

@@ -1,5 +1,7 @@
-// A glTF file as a whole scene: geometry through assimp, camera and KHR_lights_punctual from its JSON (assimp 5.2 keeps
-// one light and one camera of those that several nodes share).
+// Geometry comes through assimp, camera and KHR_lights_punctual from the JSON (assimp 5.2 keeps one light and one camera of those
+// that several nodes share).
+#include "common/scene/gltf_scene.h"
+
 #include <assimp/material.h>
 #include <fmt/format.h>
 
@@ -36,7 +38,8 @@ class GltfReader {
  public:
   GltfReader(const json::Value& root, const std::string& file, Scene& scene) : root_(root), file_(file), scene_(scene) {}
 
-  void read() {
+  // Returns "airlight" in the extras of the scene, or null.
+  const json::Value* read() {
     const json::Value* chosen = member(root_, "scene");
     const Node scene = element("scenes", chosen ? index(*chosen, "scene") : 0, root_.place);
     if (const json::Value* roots = member(scene.value(), "nodes")) {
@@ -44,6 +47,8 @@ class GltfReader {
         visit(index(n.value(), n.path()), n.value().place, glm::dmat4(1.0), 0);
     }
     if (!has_camera_) throw InputError(file_ + ": no camera, expected one with a perspective");
+    const json::Value* extras = member(scene.value(), "extras");
+    return extras ? member(*extras, "airlight") : nullptr;
   }
 
  private:
@@ -146,7 +151,8 @@ class GltfReader {
     l.position = glm::dvec3(world[3]);
     if (l.type == LightType::directional) {
       if (!(glm::length(glm::dvec3(world[2])) > 1e-9)) at.fail("a light with a singular transform");
-      l.direction = glm::normalize(-glm::dvec3(world[2]));
+      // As often as it takes to change no bit any more: a scene file with these numbers is the same.
+      for (glm::dvec3 d = -glm::dvec3(world[2]); l.direction != d; d = glm::normalize(d)) l.direction = d;
       l.position = {};
     }
     scene_.lights.push_back(l);
@@ -169,20 +175,87 @@ std::string json_of(const std::string& path, std::string bytes) {
   return bytes.size() >= 20 ? bytes.substr(20, length) : "";
 }
 
+// What an importer made of a material that the file does not say is left as assimp's default: white, matt.
 Material material_of(const aiMaterial& from) {
-  Material m;
   aiColor4D base(1, 1, 1, 1);
+  ai_real metallic = 0, roughness = 1;
   from.Get(AI_MATKEY_BASE_COLOR, base);
-  m.diffuse = glm::clamp(glm::vec3(base.r, base.g, base.b), 0.0F, 1.0F);
-  return m;
+  if (from.Get(AI_MATKEY_METALLIC_FACTOR, metallic) != aiReturn_SUCCESS) {
+    Material plain;
+    plain.diffuse = glm::clamp(glm::vec3(base.r, base.g, base.b), 0.0F, 1.0F);
+    return plain;
+  }
+  from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness);
+  return gltf_material(glm::dvec3(base.r, base.g, base.b), static_cast<double>(metallic), static_cast<double>(roughness));
+}
+
+// What the file says of its looks and is not rendered.
+std::vector<std::string> notes_of(const json::Value& root, const std::string& file) {
+  std::vector<std::string> notes;
+  const auto note = [&](std::string_view what) { notes.push_back(fmt::format("{}: {}", file, what)); };
+  const auto filled = [&](std::string_view key) {
+    const json::Value* v = member(root, key);
+    return v && !v->items.empty();
+  };
+  if (const json::Value* cameras = member(root, "cameras"); cameras && cameras->items.size() > 1)
+    note("more than one camera, the first that its scene has is taken");
+  if (filled("textures")) note("textures are left out, factors alone color its materials");
+  if (filled("animations")) note("animations are left out");
+  if (filled("skins")) note("skins are left out");
+  bool emissive = false, alpha = false;
+  if (const json::Value* materials = member(root, "materials")) {
+    for (const json::Value& m : materials->items) {
+      if (const json::Value* e = member(m, "emissiveFactor")) {
+        for (const json::Value& c : e->items) emissive |= c.number > 0;
+      }
+      const json::Value* mode = member(m, "alphaMode");
+      alpha |= mode && mode->text != "OPAQUE";
+    }
+  }
+  if (emissive) note("emission of materials is left out");
+  if (alpha) note("transparency of materials is left out, they are opaque");
+  if (const json::Value* used = member(root, "extensionsUsed")) {
+    for (const json::Value& e : used->items) {
+      if (e.text != "KHR_lights_punctual") note(fmt::format("extension {} is left out", json::quoted(e.text)));
+    }
+  }
+  return notes;
 }
 
 }  // namespace
 
-Scene load_gltf_scene(const std::string& path, Progress& progress) {
-  Loading loading;
+Material gltf_material(const glm::dvec3& base, double metallic, double roughness) {
+  const double metal = std::clamp(metallic, 0.0, 1.0), width = std::clamp(roughness, 0.0, 1.0) * std::clamp(roughness, 0.0, 1.0);
+  Material m;
+  for (int k = 0; k < 3; ++k) {
+    const double color = std::clamp(base[k], 0.0, 1.0), mirrored = 0.04 * (1 - metal) + color * metal;
+    m.diffuse[k] = static_cast<float>(color * (1 - metal) * (1 - mirrored));
+    // Rounded apart they must not reflect more than arrives.
+    m.specular[k] = static_cast<float>(std::max(0.0, std::min(mirrored, 1 - static_cast<double>(m.diffuse[k]) - 1e-6)));
+  }
+  const double about_half = width > 0 ? 2 / (width * width) - 2 : 1e30;
+  m.shininess = static_cast<float>(std::min(about_half / 4, limits::shininess.most));
+  return m;
+}
+
+std::vector<std::string> gltf_notes(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".gltf" && extension != ".glb") return {};
+  return notes_of(json::parse(json_of(path, read_file(path, std::uint64_t{8} << 30U)), path), path);
+}
+
+GltfScene load_gltf(const std::string& path, std::optional<double> fog, Progress& progress) {
+  GltfScene out;
+  Scene& scene = out.loading.scene;
   const json::Value root = json::parse(json_of(path, read_file(path, std::uint64_t{8} << 30U)), path);
-  GltfReader(root, path, loading.scene).read();
+  GltfReader reader(root, path, scene);
+  if (const json::Value* settings = reader.read()) {
+    out.settings = *settings;
+    SceneFiles files(folder_of(path));
+    parse_gltf_settings(Node(*settings, path, "extras.airlight"), files, out.loading, progress);
+  }
+  if (fog) scene.medium.extinction = *fog;
+  out.notes = notes_of(root, path);
 
   // One surface a material, in world coordinates. A scene without meshes is one of lights only.
   if (member(root, "meshes")) {
@@ -192,12 +265,12 @@ Scene load_gltf_scene(const std::string& path, Progress& progress) {
       surface.mesh = mesh_of(file, path, static_cast<int>(i), false, progress);
       if (!surface.mesh) continue;
       surface.material = material_of(*file.scene().mMaterials[i]);
-      loading.scene.surfaces.push_back(std::move(surface));
-      loading.surfaces.push_back({file.content_hash(), false, {}});
+      scene.surfaces.push_back(std::move(surface));
+      out.loading.surfaces.push_back({file.content_hash(), false, {}, static_cast<int>(i)});
     }
   }
-  loading.scene.hash = scene_hash(loading);
-  return std::move(loading.scene);
+  scene.hash = scene_hash(out.loading);
+  return out;
 }
 
 }  // namespace airlight

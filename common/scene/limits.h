@@ -25,6 +25,9 @@ inline constexpr Range field_of_view{0.01, 179, "degree"};
 inline constexpr Range asymmetry{-0.99, 0.99, ""};
 inline constexpr Range shininess{0, 1e4, ""};
 inline constexpr Range degrees{-36000, 36000, "degree"};
+// Koschmieder 1924: the distance at which a dark object keeps 2 % of contrast; ln(50) = 3.912.
+inline constexpr double koschmieder = 3.912;
+
 inline constexpr int most_pixels = 65535;  // a side
 
 }  // namespace airlight::limits

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "common/error.h"
 #include "common/scene/files.h"
+#include "common/scene/gltf_scene.h"
 #include "common/scene/limits.h"
 #include "common/scene/parse.h"
 
@@ -16,6 +18,8 @@ namespace airlight {
 namespace {
 
 constexpr std::uint64_t most_scene_bytes = std::uint64_t{256} << 20U;
+
+}  // namespace
 
 // Knobs go on as text; their technique checks them when it is known which one runs.
 void parse_technique(const Node& node, Scene& scene) {
@@ -44,6 +48,8 @@ void parse_technique(const Node& node, Scene& scene) {
   }
   if (scene.technique.empty()) node.fail("missing key, expected \"name\"");
 }
+
+namespace {
 
 void check_emission(const Node& medium, const Scene& scene) {
   const Medium& m = scene.medium;
@@ -88,6 +94,19 @@ Scene scene_of(const Object& o, SceneFiles& files, Progress& progress) {
 }
 
 }  // namespace
+
+void parse_gltf_settings(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
+  static constexpr auto known = keys("medium", "background", "sky_distance", "technique");
+  const Object o(node, known);
+  Scene& scene = loading.scene;
+  if (const auto sky = o.find("sky_distance")) scene.sky_distance = sky->number(limits::length);
+  if (const auto medium = o.find("medium")) {
+    parse_medium(*medium, files, loading, progress);
+    check_emission(*medium, scene);
+  }
+  if (const auto background = o.find("background")) scene.background = background->vec3(limits::radiance);
+  if (const auto technique = o.find("technique")) parse_technique(*technique, scene);
+}
 
 struct SceneFile::State {
   std::string name;
@@ -141,7 +160,7 @@ std::size_t SceneFile::tracks() const { return state_->animation.tracks(); }
 std::vector<std::string> SceneFile::numbered_files() const { return state_->animation.numbered_files(); }
 
 Scene SceneFile::scene(int frame, Progress& progress) {
-  if (state_->is_gltf()) return load_gltf_scene(state_->name, progress);
+  if (state_->is_gltf()) return std::move(load_gltf(state_->name, std::nullopt, progress).loading.scene);
   Scene scene = state_->scene(frame, FileUse::read, progress);
   state_->files.end_frame();
   return scene;

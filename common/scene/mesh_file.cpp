@@ -119,15 +119,18 @@ std::shared_ptr<const Mesh> mesh_of(const AssimpFile& file, const std::string& p
   return std::make_shared<const Mesh>(std::move(mesh));
 }
 
-MeshFile read_mesh_file(const std::string& path, bool flat, Progress& progress) {
+MeshFile read_mesh_file(const std::string& path, bool flat, int part, Progress& progress) {
   const AssimpFile file(path, progress);
-  MeshFile out{mesh_of(file, path, -1, flat, progress), file.content_hash()};
-  if (!out.mesh) throw InputError(path + ": no triangle with an area, expected at least one");
+  MeshFile out{mesh_of(file, path, part, flat, progress), file.content_hash()};
+  if (!out.mesh) {
+    const std::string where = part < 0 ? "" : fmt::format(" of material {}", part);
+    throw InputError(fmt::format("{}: no triangle{} with an area, expected at least one", path, where));
+  }
   return out;
 }
 
 std::shared_ptr<const Mesh> load_mesh(const std::string& path, bool flat, Progress& progress) {
-  return read_mesh_file(path, flat, progress).mesh;
+  return read_mesh_file(path, flat, -1, progress).mesh;
 }
 
 }  // namespace airlight

@@ -16,7 +16,8 @@ struct MeshFile {
   std::string content_hash;  // SHA-256 of its bytes
 };
 
-MeshFile read_mesh_file(const std::string& path, bool flat, Progress&);
+// `part`: the triangles of that material alone, as the file numbers them; -1: all.
+MeshFile read_mesh_file(const std::string& path, bool flat, int part, Progress&);
 
 // The triangles of one file that have this material, or of all for -1, with the transforms of the nodes applied. A mesh
 // without triangles is null.

@@ -24,6 +24,7 @@ struct LoadedSurface {
   std::string content_hash;
   bool flat = false;
   std::string brdf_hash;  // of the file that the material names
+  int part = -1;          // which material's triangles of the file; -1: all
 };
 struct Loading {
   Scene scene;
@@ -51,7 +52,7 @@ void parse_surfaces(const Node&, SceneFiles&, Loading&, Progress&);
 // SHA-256 over every value (defaults filled in, in a fixed order) and the hashes of the files.
 std::string scene_hash(const Loading&);
 
-// A glTF file as a whole scene.
-Scene load_gltf_scene(const std::string& path, Progress&);
+// Name of the technique and its knobs, into scene.technique and scene.settings.
+void parse_technique(const Node&, Scene&);
 
 }  // namespace airlight

@@ -27,15 +27,12 @@ Phase parse_phase(const Node& node) {
   return phase;
 }
 
-// Koschmieder 1924: the distance at which a dark object keeps 2 % of contrast; ln(50) = 3.912.
-constexpr double koschmieder = 3.912;
-
 double parse_homogeneous(const Node& node) {
   static constexpr auto known = keys("extinction", "visibility");
   const Object o(node, known);
   const auto extinction = o.find("extinction"), visibility = o.find("visibility");
   if (extinction && visibility) visibility->fail("extinction is given too, expected one of extinction and visibility");
-  if (visibility) return koschmieder / visibility->number({koschmieder / limits::extinction.most, 1e9, "m"});
+  if (visibility) return limits::koschmieder / visibility->number({limits::koschmieder / limits::extinction.most, 1e9, "m"});
   return o.require("extinction").number(limits::extinction);
 }
 

@@ -134,7 +134,7 @@ void add_brdf(const Node& material, SceneFiles& files, Surface& surface, std::st
 
 void parse_surfaces(const Node& node, SceneFiles& files, Loading& loading, Progress& progress) {
   static constexpr auto known =
-      keys("mesh", "transform", "translate", "rotate", "scale", "casts_shadow", "material", "normals", "prt");
+      keys("mesh", "transform", "translate", "rotate", "scale", "casts_shadow", "material", "normals", "part", "prt");
   static constexpr auto normals_names = keys("auto", "flat");
   const std::vector<Node> nodes = node.array();
   std::uint64_t triangles = 0, vertices = 0;
@@ -155,9 +155,12 @@ void parse_surfaces(const Node& node, SceneFiles& files, Loading& loading, Progr
     const auto normals = o.find("normals");
     const bool flat = normals && normals->choice(normals_names) == "flat";
 
+    const auto part_node = o.find("part");
+    const int part = part_node ? part_node->integer(0, 1 << 20) : -1;
+
     // The file comes last: what the scene says itself is checked without it.
     const Node mesh = o.require("mesh");
-    const auto file = files.mesh(mesh, flat, progress);
+    const auto file = files.mesh(mesh, flat, part, progress);
     if (!file) continue;
     surface.mesh = file->mesh;
     check_extent(mesh, surface);
@@ -167,7 +170,7 @@ void parse_surfaces(const Node& node, SceneFiles& files, Loading& loading, Progr
       mesh.fail(fmt::format("{} triangles in all surfaces, expected at most {}", triangles, most_triangles));
     }
     loading.scene.surfaces.push_back(std::move(surface));
-    loading.surfaces.push_back({file->content_hash, flat, std::move(brdf_hash)});
+    loading.surfaces.push_back({file->content_hash, flat, std::move(brdf_hash), part});
   }
 }
 

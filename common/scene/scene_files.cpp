@@ -1,6 +1,7 @@
 #include "common/scene/scene_files.h"
 
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 #include "common/error.h"
@@ -25,8 +26,9 @@ std::shared_ptr<const File> SceneFiles::held(Files<File>& files, const Node& nam
   return one.file;
 }
 
-std::shared_ptr<const MeshFile> SceneFiles::mesh(const Node& named, bool flat, Progress& progress) {
-  return held(meshes_, named, flat ? "flat" : "", [&](const std::string& path) { return read_mesh_file(path, flat, progress); });
+std::shared_ptr<const MeshFile> SceneFiles::mesh(const Node& named, bool flat, int part, Progress& progress) {
+  const std::string how = std::string(flat ? "flat" : "") + std::to_string(part);
+  return held(meshes_, named, how, [&](const std::string& path) { return read_mesh_file(path, flat, part, progress); });
 }
 
 std::shared_ptr<const BrdfFile> SceneFiles::brdf(const Node& named) { return held(brdfs_, named, "", read_brdf_file); }

@@ -30,7 +30,7 @@ class SceneFiles {
 
   FileUse use = FileUse::read;
 
-  std::shared_ptr<const MeshFile> mesh(const Node& named, bool flat, Progress&);
+  std::shared_ptr<const MeshFile> mesh(const Node& named, bool flat, int part, Progress&);
   std::shared_ptr<const BrdfFile> brdf(const Node& named);
   std::shared_ptr<const GridFile> grid(const Node& named, const std::string& name, Progress&);
   std::shared_ptr<const EnvironmentFile> environment(const Node& named);

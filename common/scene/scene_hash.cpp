@@ -83,6 +83,7 @@ std::string scene_hash(const Loading& loading) {
     const Surface& surface = s.surfaces[i];
     c.line("mesh", loading.surfaces[i].content_hash);
     c.add("flat", loading.surfaces[i].flat ? 1 : 0);
+    if (loading.surfaces[i].part >= 0) c.add("part", loading.surfaces[i].part);
     for (int column = 0; column < 4; ++column) c.add("transform", glm::dvec3(surface.transform[column]));
     c.add("casts_shadow", surface.casts_shadow ? 1 : 0);
     if (surface.brdf) {  // the material is told by it

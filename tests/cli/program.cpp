@@ -216,8 +216,6 @@ TEST_F(Program, RefusesWhatItCannotDo) {
   refused("render scene.json -o a.exr --backend gl --technique reference", 2, "reference");
   refused("render scene.json -o a.exr --technique shadow-planes --set indirect=exact", 2, "unbounded | off");
   refused("render scene.json -o a.exr --technique radiosity", 2, "radiosity");
-  refused("render scene.json -o a.exr --seed 1", 2, "--seed: not in this version");
-  refused("fit scene.json", 2, "fit: not in this version");
   refused("render scene.json -o a.exr --supersample 17", 2, "1..16");
   refused("render scene.json -o a.exr --tonemap filmic", 2, "reinhard");
 }
