@@ -2,7 +2,7 @@
 # view_person.sh AIRLIGHT SCENES: uses airlight view as a person would, with real keys and a real mouse, on a display of its own. Waits for what
 # the viewer writes, never for a time; 60 s without it are a failure.
 set -euo pipefail
-airlight=$1 scenes=$2
+airlight=$(realpath "$1") scenes=$(realpath "$2")
 work=$(mktemp -d)
 server= viewer=
 finish() {
@@ -46,8 +46,9 @@ start() {  # SCENE NAME...
   viewer=$!
   wait_for "window" xdotool search --onlyvisible --name "airlight $1"
   window=$(xdotool search --onlyvisible --name "airlight $1" | head -n 1)
-  xdotool windowfocus --sync "$window"
+  wait_for "focus" focused
 }
+focused() { xdotool windowfocus "$window" && [ "$(xdotool getwindowfocus)" = "$window" ]; }
 stop() {
   kill "$viewer"
   wait "$viewer" || [ $? -eq 130 ] || fail "the viewer ended with $?"
