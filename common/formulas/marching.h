@@ -114,9 +114,14 @@ FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb
 }
 
 // Light that arrives at the camera from a step of optical depth tau behind `front` of it, for a sample at share u of the step behind `beside` on its
-// way from the light: exp(-front) times the mean of exp(-tau) where u is 1/2; elsewhere the sample is seen through its own depth.
+// way from the light: exp(-front) times the mean of exp(-tau) where u is 1/2; elsewhere the sample is seen through its own depth u tau, exactly where the step is
+// thin, and through no less than what stands before the step.
 FORMULA real step_transmittance(real front, real tau, real u, real beside) {
-  return transmittance(max(front + tau * (u - 0.5) + beside, 0.0)) * mean_transmittance(tau);
+  real seen = front + tau * (u - 0.5) + beside;
+  real light = select(seen < 87.0, exp_(-max(min(seen, 87.0), -87.0)), real(0.0)) * mean_transmittance(tau);
+  mask early = tau * (0.5 - u) > 1e-3;
+  if (any_lane(early)) light = select(early, min(light, transmittance(front + beside)), light);
+  return light;
 }
 
 // Optical depth at which a ray surely ends: exp(-80) = 1e-35.

@@ -46,6 +46,15 @@ TEST_P(Found, ASurfaceBeyondTheSky) {
   }
 }
 
+// Half the light of such a lamp is scattered within a few of its radii, and is seen through nothing.
+TEST_P(Found, ALampInTheCamera) {
+  Scene scene = steam();
+  scene.medium.gaussians[0].center = {0, 0, -1}, scene.medium.gaussians[0].extinction = 1;
+  scene.lights = {point_light({0, 0, 0}, glm::dvec3(1))};
+  for (const char* technique : {"marching", "opacity-propagation"})
+    hold(scene, technique, {{"steps", "64"}}, tolerance("stress_headlight"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, Found, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
 
 }  // namespace

@@ -89,11 +89,6 @@ double promise_of(const Scene& scene, const Asked& asked) {
     const double most = static_cast<double>(*std::max_element(grid->voxels->values.begin(), grid->voxels->values.end()));
     if (most * grid->scale * glm::length(glm::dvec3(grid->transform[0])) > 100) return HUGE_VAL;
   }
-  // A lamp in the camera: half of its light is from the first few of its radii.
-  const bool headlight = std::any_of(scene.lights.begin(), scene.lights.end(), [&](const LightSource& l) {
-    return l.type == LightType::point && glm::distance(l.position, scene.camera.position) < 10 * l.radius;
-  });
-  if (headlight && t.name != "gaussian-airlight" && t.name != "shadow-planes") more += 0.02;
   const double error = t.estimate(scene, scene.camera.resolution, KnobValues(t.knobs, settings), 2).error + more;
   if (!scene.environment) return error;
   return scene.medium.gaussians.empty() && !scene.medium.grid ? error + 0.1 : HUGE_VAL;

@@ -115,16 +115,15 @@ Measured measure_transmittance(const Run& run) {
   Random random(stream + 2);
   Columns in;
   for (int i = 0; i < 20000; ++i) {
-    add_call(in, random.number(0, 5), random.magnitude(1e-6, 20), i % 2 == 0 ? 0.5 : random.number(0.3, 0.7),
-             random.number(0, 5));
+    add_call(in, random.number(0, 5), random.magnitude(1e-6, 20), i % 2 == 0 ? 0.5 : random.number(), random.number(0, 5));
   }
   const Columns found = run({Formula::step_transmittance, in});
   Measured m;
   for (std::size_t i = 0; i < in[0].size(); ++i) {
     const double front = in[0][i], tau = in[1][i], u = in[2][i], beside = in[3][i];
     const double mean = -std::expm1(-tau) / tau;
-    const double truth =
-        u == 0.5 ? std::exp(-front - beside) * mean : std::exp(-std::max(front + tau * (u - 0.5) + beside, 0.0)) * mean;
+    const double before = std::exp(-front - beside), all = std::exp(-(front + tau * (u - 0.5) + beside)) * mean;
+    const double truth = u == 0.5 ? before * mean : tau * (0.5 - u) > 1e-3 ? std::min(all, before) : all;
     m.add(std::fabs(found[0][i] / truth - 1) / (1 + front + tau + beside), [&] {
       return place({{"front", front}, {"tau", tau}, {"share", u}, {"beside", beside}});
     });
