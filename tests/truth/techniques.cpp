@@ -18,7 +18,7 @@
 namespace airlight {
 namespace {
 
-constexpr Extent extent{160, 120};
+constexpr Extent many_pixels{160, 120};
 constexpr Extent few_pixels{96, 72};  // where many steps are taken, and edges are not what is asked about
 
 class Techniques : public testing::TestWithParam<TruthScene> {};
@@ -81,7 +81,7 @@ TEST_P(Techniques, ShadowPlanes) {
   const Scene scene = GetParam().make();
   RenderSettings settings;
   settings.technique = "shadow-planes";
-  hold(scene, extent, settings, truth_of(scene, extent),
+  hold(scene, many_pixels, settings, truth_of(scene, many_pixels),
        {"truth_off_edges", "truth_surface_off_edges", "truth_everywhere", "truth_airlight_everywhere"}, 0);
 }
 
