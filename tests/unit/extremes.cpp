@@ -125,7 +125,7 @@ Scene extreme_medium(std::uint32_t seed) {
   return s;
 }
 
-// On OpenGL a scene in three: most of its time goes into compiling shaders.
+// On OpenGL a scene in three: most of its time goes into compiling shaders. tests/stability draws more, and holds them to more.
 class Extremes : public testing::TestWithParam<std::string> {
  protected:
   std::uint32_t count(std::uint32_t scenes) const { return GetParam() == "gl" ? (scenes + 2) / 3 : scenes; }
@@ -153,15 +153,15 @@ void expect_finite(const std::string& backend, Scene (*make)(std::uint32_t), con
   std::printf("%u scenes, largest radiance %.3g\n", scenes, static_cast<double>(largest));
 }
 
-TEST_P(Extremes, GiveFiniteNumbers) { expect_finite(GetParam(), extreme_scene, {}, count(120)); }
+TEST_P(Extremes, GiveFiniteNumbers) { expect_finite(GetParam(), extreme_scene, {}, count(60)); }
 
 TEST_P(Extremes, GiveFiniteNumbersWhenMarched) {
   RenderSettings settings;
   settings.technique = "marching";
   settings.knobs = {{"steps", "6"}, {"light_steps", "3"}};
-  expect_finite(GetParam(), extreme_medium, settings, count(120));
+  expect_finite(GetParam(), extreme_medium, settings, count(40));
   settings.knobs.emplace_back("shadow", "march");
-  expect_finite(GetParam(), extreme_medium, settings, count(120));
+  expect_finite(GetParam(), extreme_medium, settings, count(40));
 }
 
 // The same without the grid, half of them in an environment.
@@ -176,7 +176,7 @@ TEST_P(Extremes, GiveFiniteNumbersOfGaussians) {
   RenderSettings settings;
   settings.technique = "gaussian-airlight";
   settings.knobs = {{"samples", "3"}, {"environment_rays", "16"}};
-  expect_finite(GetParam(), extreme_gaussians, settings, count(50));
+  expect_finite(GetParam(), extreme_gaussians, settings, count(25));
   settings.knobs = {{"light_path", "published"}, {"shadows", "off"}, {"environment_rays", "16"}};
   expect_finite(GetParam(), extreme_gaussians, settings, count(25));
 }
