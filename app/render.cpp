@@ -220,7 +220,11 @@ class Sequence {
   // Renders and writes the rows of the settings, as many at a time as there is memory for.
   Frame render_to(const std::string& output, const Scene& scene, RenderSettings settings, Extent extent,
                   const ImageFileOptions& file, Times& times, std::vector<std::string>& names) {
-    if (!renderer_) renderer_.emplace(c_.renderer);
+    if (!renderer_) {
+      RendererOptions options = c_.renderer;
+      if (c_.memory) options.keep = 0;  // what there is goes into bands as high as they may be
+      renderer_.emplace(options);
+    }
     const Clock::time_point start = Clock::now();
     const Rows rows = settings.rows;
     const std::vector<Rows> bands =

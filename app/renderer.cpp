@@ -122,9 +122,10 @@ struct Renderer::State {
   bool holds(Handle h, std::uint64_t key) const { return backend->holds(h, key); }
   // What is handed from step to step is kept from the second frame on in which the camera stands still; nothing runs for that
   // alone.
-  Plan plan(const Technique& technique, const Scene& scene, const FrameRequest& request) const {
+  Plan plan(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows) const {
     Plan made = technique.plan(scene, request);
-    if (camera_key(technique, scene, request) == seen)
+    const bool whole = within(rows, request.extent.height) == Rows{0, request.extent.height};  // bands are there to save memory
+    if (whole && camera_key(technique, scene, request) == seen)
       keep_images(
           made, [&](Handle h, std::uint64_t key) { return holds(h, key); }, options.keep);
     return made;
@@ -134,7 +135,7 @@ struct Renderer::State {
               Progress& progress) {
     Images images;
     if (technique.plan) {
-      const Plan made = plan(technique, scene, request);
+      const Plan made = plan(technique, scene, request, rows);
       seen = camera_key(technique, scene, request);
       images = run_plan(*backend, made, rows, stats, progress);
     } else {
@@ -345,7 +346,8 @@ std::string Renderer::explain(const Scene& scene, const RenderSettings& asked) c
   const DefaultFloats mode;
   const State& state = *state_;
   return explained(
-      scene, asked, state.options, [&](const Technique& t, const Scene& s, const FrameRequest& r) { return state.plan(t, s, r); },
+      scene, asked, state.options,
+      [&](const Technique& t, const Scene& s, const FrameRequest& r) { return state.plan(t, s, r, {}); },
       [&](Handle h, std::uint64_t key) { return state.holds(h, key); });
 }
 

@@ -113,8 +113,8 @@ TEST_F(Farm, LargeImagesTakeNoMoreThanTheyMay) {
   const auto held = [&](const std::string& file) {
     double most = 0;
     const std::string text = content(work.path(file));
-    for (std::size_t at = 0; (at = text.find("\"bytes\": ", at)) != std::string::npos; ++at)
-      most = std::max(most, std::strtod(text.c_str() + at + 9, nullptr));
+    for (std::size_t at = 0; (at = text.find("\"held\": ", at)) != std::string::npos; ++at)
+      most = std::max(most, std::strtod(text.c_str() + at + 8, nullptr));
     return most;
   };
   ok(render + "one.exr --stats-json one.json");
