@@ -124,7 +124,7 @@ inline constexpr Tolerance tolerances[] = {
      "more "
      "where a cell is about as wide as the radius, whose negative values are left out"},
     {"fit_known", 1e-4, "relative: single precision of cells, and Gaussians that end at 6e-6 of their peak"},
-    {"fit_depth_of_cells", 0.06,
+    {"fit_depth_of_cells", 0.03,
      "relative L2 of depths: linear between centres widens a Gaussian, radius^2 by a third of a cell's square, here by 2 to 7 %"},
     {"fitted_plume", 0.1,
      "relative RMSE of a picture: 2000 Gaussians leave 14 % of the density, in details smaller than a pixel of the test"},
