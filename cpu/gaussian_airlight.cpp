@@ -34,13 +34,15 @@ struct Scattering {
   LitRays lit;
 
   int i = 0;  // the first pixel
+  Mask mine;  // pixels of the square
   Real3 d;
   Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with shadow volumes, of those that are behind
 
   HWY_INLINE Scattering(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
                         std::span<const GaussLegendre> quadratures, std::span<const GaussianTerms> of_gaussians, float* floats,
                         const LitRays& lit_rays);
-  HWY_INLINE void begin(int first, Real length);
+  HWY_INLINE void put(Real value, float* plane) const { store(select(mine, value, load(plane + i)), plane + i); }
+  HWY_INLINE void begin(int first, Mask of_square, Real length);
   HWY_INLINE void add(std::size_t light, const Real* scattered);
   HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
@@ -67,8 +69,9 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
       tables(tile_view.floats(algorithm.tables)),
       lit(lit_rays) {}
 
-HWY_INLINE void Scattering::begin(int first, Real length) {
+HWY_INLINE void Scattering::begin(int first, Mask of_square, Real length) {
   i = first;
+  mine = of_square;
   d = pixel_rays(a.view, view.tile, i);
   end = min(length, 1e15);
   front = 0.0;
@@ -78,7 +81,7 @@ HWY_INLINE void Scattering::begin(int first, Real length) {
   gaussians.begin(d);
   if (!a.per_light) return;
   for (std::size_t k = 0; k < a.lights.size(); ++k) {
-    for (int c = 0; c < 3; ++c) store(0.0, view.plane(a.per_light, c, static_cast<int>(k)) + i);
+    for (int c = 0; c < 3; ++c) put(0.0, view.plane(a.per_light, c, static_cast<int>(k)));
   }
 }
 
@@ -86,8 +89,8 @@ HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
   for (int c = 0; c < 3; ++c) {
     sum[c] += scattered[c];
     if (!a.per_light) continue;
-    float* plane = view.plane(a.per_light, c, static_cast<int>(light)) + i;
-    store(load(plane) + scattered[c], plane);
+    float* plane = view.plane(a.per_light, c, static_cast<int>(light));
+    put(load(plane + i) + scattered[c], plane);
   }
 }
 
@@ -270,18 +273,22 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
 // One square of the tile, its upper left pixel at (x, y) in the tile.
 static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, const GaussianPanels& panels,
                               std::span<const GaussLegendre> rules, std::span<const GaussianTerms> terms,
-                              std::span<const LitParts> lit, AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y) {
+                              std::span<const LitParts> lit, AlignedFloats& scratch, LitScratch& lit_scratch, int x, int y,
+                              int side) {
   Scattering s(a, view, panels, rules, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
   const float* distance = view.plane(a.distance);
-  for (int row = y; row < y + bin_side; ++row) {
-    for (int column = x; column < x + bin_side; column += lanes) {
+  const int first_column = x - x % lanes;
+  for (int row = y; row < y + side; ++row) {
+    for (int column = first_column; column < x + side; column += lanes) {
       const int i = row * tile_side + column;
-      const Real length = ray_length(load(distance + i), a.sky_distance);
-      if (!any_lane(length > 0.0)) {
+      const Real across = first_lanes() + static_cast<double>(column - x);
+      const Mask mine = across >= 0.0 && across < static_cast<double>(side);
+      const Real length = select(mine, ray_length(load(distance + i), a.sky_distance), 0.0);
+      if (side >= lanes && !any_lane(length > 0.0)) {
         store_no_airlight(a, view, i);
         continue;
       }
-      s.begin(i, length);
+      s.begin(i, mine, length);
       for (const GaussianPanels::Panel& p : panels.panels()) s.panel(p);
 
       Real tau = optical_depth(length, a.extinction);
@@ -289,9 +296,9 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
         tau += s.gaussians.depth_of(met, s.end);
       }
       const Real source = opacity(tau);
-      for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c) + i);
-      store(transmittance(tau), view.plane(a.transmittance) + i);
-      if (a.optical_depth) store(min(tau, 1e30), view.plane(a.optical_depth) + i);
+      for (int c = 0; c < 3; ++c) s.put(fma(source, a.ambient[c], s.sum[c]), view.plane(a.airlight, c));
+      s.put(transmittance(tau), view.plane(a.transmittance));
+      if (a.optical_depth) s.put(min(tau, 1e30), view.plane(a.optical_depth));
     }
   }
 }
@@ -322,8 +329,15 @@ void run_tile(const GaussianAirlight& a, const TileView& view, Simd simd, std::s
   for (int y = 0; y < tile_side; y += bin_side) {
     for (int x = 0; x < tile_side; x += bin_side) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
-      if (any_ray(view.plane(a.distance), x, y, bin_side)) panels.make(view.tile.x + x, view.tile.y + y);
-      entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules, terms, lit, scratch, lit_scratch, x, y);
+      const auto run = [&](int square_x, int square_y, int side) {
+        entry(HWY_DISPATCH_TABLE(gaussian_airlight), simd)(a, view, panels, rules, terms, lit, scratch, lit_scratch,
+                                                           square_x - view.tile.x, square_y - view.tile.y, side);
+      };
+      if (any_ray(view.plane(a.distance), x, y, bin_side)) {
+        panels.each(view.tile.x + x, view.tile.y + y, bin_side, run);
+      } else {
+        run(view.tile.x + x, view.tile.y + y, bin_side);
+      }
     }
   }
 }

@@ -21,21 +21,29 @@ class PanelLists {
  public:
   // most_rounds: of loops in a dispatch, beside those for lit parts.
   PanelLists(const GaussianAirlight& a, Rows rows, std::int64_t most_rounds)
-      : a_(a),
-        most_rounds_(most_rounds),
-        columns_((a.view.extent.width + bin_side - 1) / bin_side),
-        first_row_(rows.first / bin_side) {
-    const int end_row = (rows.end + bin_side - 1) / bin_side;
+      : a_(a), most_rounds_(most_rounds), first_y_(rows.first / bin_side * bin_side) {
+    const Extent extent = a.view.extent;
+    std::vector<Square> squares;
     GaussianPanels panels(a);
-    for (int row = first_row_; row < end_row; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        panels.make(column * bin_side, row * bin_side);
-        add(panels);
+    for (int y = first_y_; y < rows.end; y += bin_side) {
+      for (int x = 0; x < extent.width; x += bin_side) {
+        panels.each(x, y, bin_side, [&](int square_x, int square_y, int side) {
+          if (square_x >= extent.width || square_y >= extent.height) return;
+          squares.push_back({square_x, square_y - first_y_, side, add(panels, square_x % bin_side / side, bin_side / side)});
+          side_ = std::min(side_, side);
+        });
       }
     }
-    // Parts come behind the squares.
-    const auto count = static_cast<int>(squares_.size());
-    for (glm::ivec4& square : squares_) square.x += count, square.y += count;
+    // Squares of the smallest side that there is; a larger one stands at all of its places. Parts come behind them.
+    columns_ = (extent.width + side_ - 1) / side_;
+    const int lines = (rows.end - first_y_ + side_ - 1) / side_, count = columns_ * lines;
+    squares_.resize(static_cast<std::size_t>(count));
+    for (const Square& s : squares) {
+      for (int line = s.y / side_; line < std::min((s.y + s.side) / side_, lines); ++line) {
+        for (int column = s.x / side_; column < std::min((s.x + s.side) / side_, columns_); ++column)
+          squares_[static_cast<std::size_t>(column + columns_ * line)] = s.lists + glm::ivec4(count, count, 0, 0);
+      }
+    }
     squares_.insert(squares_.end(), parts_.begin(), parts_.end());
   }
 
@@ -61,16 +69,26 @@ class PanelLists {
   static void bind_again(StepRunner& r) {
     for (const GLuint binding : {squares_binding, panels_binding, shades_binding, indices_binding}) r.bind(binding, binding);
   }
+  int side() const { return side_; }
   int columns() const { return columns_; }
-  int first_row() const { return first_row_; }
+  int first_row() const { return first_y_ / side_; }
   std::int64_t rounds_of_a_piece() const { return rounds_of_a_piece_; }
   int dispatches() const { return dispatches_; }
 
  private:
-  void add(const GaussianPanels& p) {
+  struct Square {
+    int x, y, side;  // y: from the first row
+    glm::ivec4 lists;
+  };
+
+  // Where a square's parts begin and end, then where its Gaussians do. Rounds of the squares that rays run as one belong to may
+  // add up: each of `beside` in a row has its own dispatches.
+  glm::ivec4 add(const GaussianPanels& p, int place, int beside) {
+    const auto outside = static_cast<std::int64_t>(p.met().size() + 2 * a_.lights.size()) * 2;  // of panels
+    room_ = most_rounds_ - outside;
     const auto first_panel = static_cast<int>(panels_.size() / 2), first_shade = static_cast<int>(shades_.size());
     const auto first_part = static_cast<int>(parts_.size());
-    const auto met_gaussian = [&](std::uint32_t place) { return static_cast<int>(p.met()[place]); };
+    const auto met_gaussian = [&](std::uint32_t at) { return static_cast<int>(p.met()[at]); };
     std::int64_t rounds = 0;
     for (const GaussianPanels::Panel& one : p.panels()) {
       const glm::ivec2 active = list(p, one.active, met_gaussian), passed = list(p, one.passed, met_gaussian);
@@ -96,10 +114,15 @@ class PanelLists {
       const glm::ivec2 shading = list(p, s.shading, [](std::uint32_t word) { return std::bit_cast<int>(word); });
       shades_.emplace_back(shading, static_cast<int>(s.levels), s.shaded ? 1 : 0);
     }
+    const std::vector<glm::ivec4> parts(parts_.begin() + first_part, parts_.end());
+    parts_.resize(static_cast<std::size_t>(first_part));
+    for (const glm::ivec4& one : parts) {
+      for (int k = 0; k < beside; ++k) parts_.push_back(k == place ? one : glm::ivec4(0));
+    }
     const auto first_met = static_cast<int>(indices_.size());
     for (const std::uint32_t g : p.met()) indices_.push_back(static_cast<int>(g));
-    squares_.emplace_back(first_part, static_cast<int>(parts_.size()), first_met, static_cast<int>(indices_.size()));
     dispatches_ = std::max(dispatches_, static_cast<int>(parts_.size()) - first_part);
+    return {first_part, static_cast<int>(parts_.size()), first_met, static_cast<int>(indices_.size())};
   }
 
   template <class Word>
@@ -111,17 +134,16 @@ class PanelLists {
 
   // Adds a panel to the part before it, or as one or more of its own. Returns the rounds of the last part.
   std::int64_t split(int panel, int pieces, std::int64_t once, std::int64_t a_piece, std::int64_t rounds, bool first) {
-    const auto outside = static_cast<std::int64_t>(a_.gaussians.size() + 2 * a_.lights.size()) * 2;  // of panels
-    const std::int64_t room = most_rounds_ - outside, all = once + pieces * a_piece;
-    if (!first && rounds + all <= room && parts_.back().w == all_pieces && parts_.back().z == 0) {
+    const std::int64_t all = once + pieces * a_piece;
+    if (!first && rounds + all <= room_ && parts_.back().w == all_pieces && parts_.back().z == 0) {
       parts_.back().y = panel + 1;
       return rounds + all;
     }
-    if (all <= room) {
+    if (all <= room_) {
       parts_.emplace_back(panel, panel + 1, 0, all_pieces);
       return all;
     }
-    const std::int64_t fit = (room - once) / a_piece;
+    const std::int64_t fit = (room_ - once) / a_piece;
     if (fit < 1) {
       throw MachineError(
           "OpenGL: " + std::to_string(a_.gaussians.size()) +
@@ -129,12 +151,12 @@ class PanelLists {
     }
     const auto step = static_cast<int>(std::min<std::int64_t>(fit, all_pieces));
     for (int piece = 0; piece < pieces; piece += step) parts_.emplace_back(panel, panel + 1, piece, piece + step);
-    return room;
+    return room_;
   }
 
   const GaussianAirlight& a_;
-  std::int64_t most_rounds_, rounds_of_a_piece_ = 1;
-  int columns_, first_row_, dispatches_ = 1;
+  std::int64_t most_rounds_, room_ = 0, rounds_of_a_piece_ = 1;
+  int side_ = bin_side, columns_ = 0, first_y_, dispatches_ = 1;
   std::vector<glm::ivec4> squares_, parts_, panels_, shades_;
   std::vector<int> indices_;
 };
@@ -180,7 +202,7 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
               {a.ambient, a.sky_distance},
               {a.emission, static_cast<float>(a.phase.g)},
               static_cast<int>(a.phase.kind),
-              bin_side,
+              lists.side(),
               lists.columns(),
               lists.first_row(),
               {},

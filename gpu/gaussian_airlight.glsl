@@ -16,8 +16,8 @@ layout(std140, binding = 2) uniform Knobs {
   vec4 ambient_sky_distance;
   vec4 emission_g;
   int phase_kind;
-  int bin_side;
-  int bin_columns;
+  int square_side;
+  int square_columns;
   int first_square_row;
   vec4 rules[136];   // node, weight: that of one node, that of two, and so on
   vec4 before[374];  // theirs, four in a vector (GaussLegendre::before)
@@ -333,7 +333,7 @@ void main() {
   if (store_no_airlight(at, length, first_light(), end_light())) return;
   end = min(length, 1e15);
   d = pixel_ray(pixel);
-  ivec4 square = squares[pixel.x / bin_side + bin_columns * (in_image(pixel).y / bin_side - first_square_row)];
+  ivec4 square = squares[pixel.x / square_side + square_columns * (in_image(pixel).y / square_side - first_square_row)];
   if (part > 0 || !glows()) {
     vec4 held = imageLoad(airlight_image, at);
     sum = held.xyz;

@@ -17,8 +17,10 @@ constexpr double near_light = 0.7;   // of a panel's length: nearer lights have 
 constexpr double unseen_depth = 90;  // of the homogeneous part: nothing is seen beyond
 constexpr double horizon = 1e15;     // [m]
 constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
-// What finer panels are worth falls with what stands before them: after this many they are taken as they come.
-constexpr std::size_t many_panels = 1024;
+// Numbers in a square's lists, of which each ray works through all: with more, quarters are looked at; after so many more panels
+// are taken as they come.
+constexpr std::size_t many_listed = std::size_t{1} << 14U, most_listed = std::size_t{1} << 24U;
+constexpr double worth_quartering = 0.8;  // of a square's Gaussians at most: what a quarter meets on average
 constexpr double sharing[2] = {64, 512};  // so many Gaussians of equal share make up for a node, and for two
 
 double squared(double x) { return x * x; }
@@ -138,7 +140,8 @@ struct GaussianPanels::Build {
   Cone cone;
   std::vector<Met>& met;  // in the order of out.met_
   double sharp;
-  bool everywhere;  // something is to be seen also where no Gaussian is
+  std::size_t most;  // numbers in the lists
+  bool everywhere;   // something is to be seen also where no Gaussian is
   int most_spared = 0;
   const GaussianReach& reach;
   // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
@@ -146,12 +149,13 @@ struct GaussianPanels::Build {
   std::vector<Range>& ranges;
   Range last_active{};
 
-  Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y)
+  Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y, int side, std::size_t most_numbers)
       : a(algorithm),
         out(panels),
-        cone(a.view, x, y, bin_side),
+        cone(a.view, x, y, side),
         met(panels.near_->met),
         sharp(sharpness(a.phase)),
+        most(most_numbers),
         everywhere(a.extinction > 0 || a.emission != glm::vec3(0)),
         reach(panels.near_->reach),
         stack(panels.near_->stack),
@@ -213,6 +217,8 @@ struct GaussianPanels::Build {
     return longest;
   }
 
+  bool full() const { return out.indices_.size() > most; }
+
   // Panels from begin to end. `active`: places in met, on the stack; the lights' lists begin at `from` of ranges.
   void cut(double begin, double end, Range active, std::size_t from, int depth) {
     const std::size_t stack_size = stack.size(), ranges_size = ranges.size();
@@ -243,7 +249,7 @@ struct GaussianPanels::Build {
         if (const std::uint32_t n = levels(a.lights[k], begin, end); n > 0) cuts += 2 * n + 1;
       }
       if (sampled && any) longest = std::min(longest, panel_depth / density);
-      const bool fine = end - begin <= longest || out.panels_.size() > many_panels;
+      const bool fine = end - begin <= longest || full();
       const bool good = !sampled || (fine && cuts <= most_cuts);
       if (good || depth == 0 || end - begin < finest * end) {
         add(begin, end, inside, shading, sphere, (end - begin) / longest);
@@ -375,10 +381,26 @@ void GaussianPanels::begin(const GaussianAirlight& a) {
   near_->begin(a);
 }
 
-void GaussianPanels::make(int x, int y) {
-  panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
+bool GaussianPanels::quarters_meet_fewer(int x, int y, int side) const {
+  if (side == 1) return false;
+  std::size_t met = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Cone quarter(algorithm_->view, x + k % 2 * side / 2, y + k / 2 * side / 2, side / 2);
+    for (const std::uint32_t i : met_) met += quarter.meets(algorithm_->gaussians[i]) ? 1 : 0;
+  }
+  return static_cast<double>(met) < 4 * worth_quartering * static_cast<double>(met_.size());
+}
+
+bool GaussianPanels::make(int x, int y, int side) {
   near_->enter(*algorithm_, x, y);
-  Build(*algorithm_, *this, x, y).run();
+  for (const std::size_t most : {many_listed, most_listed}) {
+    panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
+    Build build(*algorithm_, *this, x, y, side, most);
+    build.run();
+    if (!build.full()) break;
+    if (most == many_listed && quarters_meet_fewer(x, y, side)) return false;
+  }
+  return true;
 }
 
 }  // namespace airlight

@@ -14,7 +14,7 @@
 
 namespace airlight {
 
-constexpr int bin_side = 16;  // pixels of a square
+constexpr int bin_side = 16;  // pixels of a square; quarters of it and theirs where small Gaussians crowd it
 
 // The panels of one square, in order along the rays.
 class GaussianPanels {
@@ -50,8 +50,19 @@ class GaussianPanels {
   void begin(const GaussianAirlight&);
 
   // For the square whose upper left pixel is (x, y). What was held before is forgotten. Squares of a neighbourhood, one after the
-  // other, look through its Gaussians alone.
-  void make(int x, int y);
+  // other, look through its Gaussians alone. False where the lists are so long that quarters of the square, whose rays meet fewer
+  // Gaussians each, are less to do: what is held then is of no use.
+  bool make(int x, int y, int side = bin_side);
+
+  // The same for the square or as many of its parts as it takes: use(x, y, side) after each.
+  template <class Use>
+  void each(int x, int y, int side, Use&& use) {
+    if (make(x, y, side)) return use(x, y, side);
+    const int half = side / 2;
+    for (const int down : {0, half}) {
+      for (const int across : {0, half}) each(x + across, y + down, half, use);
+    }
+  }
 
   std::span<const Panel> panels() const { return panels_; }
   std::span<const Shade> shades() const { return shades_; }
@@ -66,6 +77,8 @@ class GaussianPanels {
   struct Met;  // a Gaussian as the cone of the square's rays meets it
   struct Build;
   struct Neighbourhood;
+  bool quarters_meet_fewer(int x, int y, int side) const;
+
   const GaussianAirlight* algorithm_ = nullptr;
   std::unique_ptr<Neighbourhood> near_;
   std::vector<Panel> panels_;

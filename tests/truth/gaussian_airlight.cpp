@@ -157,6 +157,26 @@ TEST_P(GaussianTruth, ErrorFallsWithTheNodes) {
 INSTANTIATE_TEST_SUITE_P(Truth, GaussianTruth, testing::ValuesIn(gaussian_scenes().begin(), gaussian_scenes().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Squares of 16 x 16 pixels meet thousands of Gaussians there, and are quartered.
+TEST(GaussianSquares, OfManySmallGaussiansAreRight) {
+  const Scene scene = load_scene(AIRLIGHT_SCENES "/fitted_plume.json");
+  const Extent extent{6, 4};
+  NoProgress progress;
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  const ReferenceFrame truth = reference_frame(scene, extent, {1e-4, true, Indirect::unbounded}, true, threads, progress);
+  for (const char* backend : {"cpu", "gl"}) {
+    RenderSettings settings;
+    settings.technique = "gaussian-airlight";
+    settings.resolution = extent;
+    settings.images = {"airlight"};
+    Renderer renderer({.backend = backend});
+    const double error = relative_error(renderer.render(scene, settings).image("airlight"), truth, parts[2]).off_edges;
+    std::printf("%-3s %zu Gaussians, relative RMSE of the airlight %.5f %%\n", backend, scene.medium.gaussians.size(),
+                100 * error);
+    EXPECT_FALSE(!(error < tolerance("truth_gaussians_fine"))) << backend;
+  }
+}
+
 // The CPU takes tiles that nothing shades in another way than those with shadows: here the left one of three.
 TEST(GaussianTiles, WithAndWithoutShadowsAreRight) {
   Scene scene;
