@@ -50,7 +50,7 @@ struct March {
   HWY_INLINE March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays, float* floats);
   HWY_INLINE void begin(int first, const Real3& direction);
   HWY_INLINE Mask ended() const;
-  HWY_INLINE void stretch(Real begin, Real end, bool all);
+  HWY_NOINLINE void stretch(Real begin, Real end, bool all);  // asked three times, a half of what there is to compile
   HWY_INLINE Local local(const Real3& p, bool all) const;
   HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
 };
@@ -183,7 +183,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
 }
 
 // From `begin` to `end` in a.steps; all: with Gaussians and grid. Rays for which end <= begin stand still.
-HWY_INLINE void March::stretch(Real begin, Real end, bool all) {
+HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
   const Mask marching = !ended() && (begin < end);
   if (!any_lane(marching)) return;
   if (!all && !(a.extinction > 0)) {  // nothing there but a glow
