@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/plan/gaussian_shadows.h"
+#include "common/plan/ray_cone.h"
 
 namespace airlight {
 
@@ -17,9 +18,12 @@ constexpr double near_light = 0.7;   // of a panel's length: nearer lights have 
 constexpr double unseen_depth = 90;  // of the homogeneous part: nothing is seen beyond
 constexpr double horizon = 1e15;     // [m]
 constexpr double finest = 4e-6;      // of the distance: shorter panels are not told apart in single precision
-// Numbers in a square's lists, of which each ray works through all: with more, quarters are looked at; after so many more panels
-// are taken as they come.
-constexpr std::size_t many_listed = std::size_t{1} << 14U, most_listed = std::size_t{1} << 24U;
+// Of a square's lists, of which each ray works through all. With more the square is worth quartering; what cannot be quartered
+// has panels as they come after so many: what finer ones are worth falls with what stands before them.
+struct Most {
+  std::size_t panels, numbers;
+};
+constexpr Most most_of_square{1024, std::size_t{1} << 14U}, most_of_all{4096, std::size_t{1} << 24U};
 constexpr double worth_quartering = 0.8;  // of a square's Gaussians at most: what a quarter meets on average
 constexpr double sharing[2] = {64, 512};  // so many Gaussians of equal share make up for a node, and for two
 
@@ -46,57 +50,6 @@ double sharpness(const Phase& phase) {
 }
 
 }  // namespace
-
-// The rays of a square: those within an angle of the axis.
-struct GaussianPanels::Cone {
-  glm::dvec3 axis{0, 0, 1};
-  double cos = 1, sin = 0;
-
-  Cone(const View& view, int x, int y, int side) {
-    const double w = view.extent.width, h = view.extent.height, t = static_cast<double>(view.tan_half_fov);
-    glm::dvec3 corner[4];
-    for (int k = 0; k < 4; ++k) {
-      const double across = x + (k % 2 == 0 ? 0 : side), down = y + (k < 2 ? 0 : side);
-      const double u = (2 * across / w - 1) * t * w / h, v = (1 - 2 * down / h) * t;
-      corner[k] = glm::normalize(u * glm::dvec3(view.right) + v * glm::dvec3(view.up) + glm::dvec3(view.forward));
-    }
-    // Samples lie up to half a pixel beside a pixel's centre: within the corners.
-    axis = glm::normalize(corner[0] + corner[1] + corner[2] + corner[3]);
-    for (const glm::dvec3& c : corner) cos = std::min(cos, glm::dot(axis, c));
-    cos -= 1e-12;
-    sin = std::sqrt(std::max(0.0, 1 - cos * cos));
-  }
-
-  // A place by its coordinates along the axis and beside it.
-  struct Place {
-    double along, beside;
-  };
-  Place place(const glm::dvec3& p) const {
-    const double along = glm::dot(p, axis);
-    return {along, std::sqrt(std::max(0.0, glm::dot(p, p) - along * along))};
-  }
-  // Bounds over all rays of the foot of a place, and of its distance from them.
-  double least_foot(Place p) const { return p.along * cos - p.beside * sin; }
-  double most_foot(Place p) const {
-    const bool inside = p.along > 0 && p.beside * cos < p.along * sin;
-    return inside ? std::sqrt(p.along * p.along + p.beside * p.beside) : p.along * cos + p.beside * sin;
-  }
-  double least_distance(Place p) const { return std::max(0.0, p.beside * cos - std::fabs(p.along) * sin); }
-
-  bool meets(const GaussianDensity& g) const {
-    const Place p = place(g.center);
-    const double within = static_cast<double>(g.reach), h = least_distance(p);
-    return h < within && most_foot(p) + std::sqrt((within - h) * (within + h)) > 0;
-  }
-
-  // Around what the rays cover between two distances.
-  Sphere around(double from, double to) const {
-    const double middle = (from + to) / 2;
-    double radius = (to - from) / 2;
-    for (const double t : {from, to}) radius = std::max(radius, std::sqrt(squared(t * cos - middle) + squared(t * sin)));
-    return {axis * middle, radius};
-  }
-};
 
 struct GaussianPanels::Met {
   double begin, end;             // [m] along the rays, within its reach
@@ -126,7 +79,7 @@ struct GaussianPanels::Neighbourhood {
     const int to_x = square_x - square_x % side, to_y = square_y - square_y % side;
     if (to_x == x && to_y == y) return;
     x = to_x, y = to_y;
-    const Cone cone(a.view, x, y, side);
+    const RayCone cone(a.view, x, y, side);
     gaussians.clear();
     for (std::uint32_t i = 0; i < a.gaussians.size(); ++i) {
       if (cone.meets(a.gaussians[i])) gaussians.push_back(i);
@@ -137,11 +90,11 @@ struct GaussianPanels::Neighbourhood {
 struct GaussianPanels::Build {
   const GaussianAirlight& a;
   GaussianPanels& out;
-  Cone cone;
+  RayCone cone;
   std::vector<Met>& met;  // in the order of out.met_
   double sharp;
-  std::size_t most;  // numbers in the lists
-  bool everywhere;   // something is to be seen also where no Gaussian is
+  Most most;
+  bool everywhere;  // something is to be seen also where no Gaussian is
   int most_spared = 0;
   const GaussianReach& reach;
   // Lists of the recursion's branch: of Gaussians, and where the list of each light lies; with volumes only whether it is empty.
@@ -149,13 +102,13 @@ struct GaussianPanels::Build {
   std::vector<Range>& ranges;
   Range last_active{};
 
-  Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y, int side, std::size_t most_numbers)
+  Build(const GaussianAirlight& algorithm, GaussianPanels& panels, int x, int y, int side, const Most& most_listed)
       : a(algorithm),
         out(panels),
         cone(a.view, x, y, side),
         met(panels.near_->met),
         sharp(sharpness(a.phase)),
-        most(most_numbers),
+        most(most_listed),
         everywhere(a.extinction > 0 || a.emission != glm::vec3(0)),
         reach(panels.near_->reach),
         stack(panels.near_->stack),
@@ -165,7 +118,7 @@ struct GaussianPanels::Build {
   }
 
   void meet(const GaussianDensity& g, std::uint32_t index) {
-    const Cone::Place p = cone.place(g.center);
+    const RayCone::Place p = cone.place(g.center);
     const double within = static_cast<double>(g.reach), radius = static_cast<double>(g.radius);
     const double h = cone.least_distance(p);
     if (h >= within) return;
@@ -179,7 +132,7 @@ struct GaussianPanels::Build {
   // Cuts in which a light's peak has to be taken apart; 0: none.
   std::uint32_t levels(const Light& light, double begin, double end) const {
     if (light.directional) return 0;
-    const Cone::Place p = cone.place(light.vector);
+    const RayCone::Place p = cone.place(light.vector);
     const double beside = std::max(static_cast<double>(light.radius), cone.least_distance(p));
     const double gap = std::max({0.0, begin - cone.most_foot(p), cone.least_foot(p) - end});
     double scale = std::sqrt(beside * beside + gap * gap) * sharp;
@@ -217,7 +170,7 @@ struct GaussianPanels::Build {
     return longest;
   }
 
-  bool full() const { return out.indices_.size() > most; }
+  bool full() const { return out.panels_.size() > most.panels || out.indices_.size() > most.numbers; }
 
   // Panels from begin to end. `active`: places in met, on the stack; the lights' lists begin at `from` of ranges.
   void cut(double begin, double end, Range active, std::size_t from, int depth) {
@@ -385,7 +338,7 @@ bool GaussianPanels::quarters_meet_fewer(int x, int y, int side) const {
   if (side == 1) return false;
   std::size_t met = 0;
   for (int k = 0; k < 4; ++k) {
-    const Cone quarter(algorithm_->view, x + k % 2 * side / 2, y + k / 2 * side / 2, side / 2);
+    const RayCone quarter(algorithm_->view, x + k % 2 * side / 2, y + k / 2 * side / 2, side / 2);
     for (const std::uint32_t i : met_) met += quarter.meets(algorithm_->gaussians[i]) ? 1 : 0;
   }
   return static_cast<double>(met) < 4 * worth_quartering * static_cast<double>(met_.size());
@@ -393,13 +346,15 @@ bool GaussianPanels::quarters_meet_fewer(int x, int y, int side) const {
 
 bool GaussianPanels::make(int x, int y, int side) {
   near_->enter(*algorithm_, x, y);
-  for (const std::size_t most : {many_listed, most_listed}) {
+  const auto build = [&](const Most& most) {
     panels_.clear(), shades_.clear(), indices_.clear(), met_.clear();
-    Build build(*algorithm_, *this, x, y, side, most);
-    build.run();
-    if (!build.full()) break;
-    if (most == many_listed && quarters_meet_fewer(x, y, side)) return false;
-  }
+    Build one(*algorithm_, *this, x, y, side, most);
+    one.run();
+    return !one.full();
+  };
+  if (build(most_of_square)) return true;
+  if (quarters_meet_fewer(x, y, side)) return false;
+  build(most_of_all);
   return true;
 }
 

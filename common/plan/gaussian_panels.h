@@ -73,7 +73,6 @@ class GaussianPanels {
   static bool closed_form(const Panel& p, const Shade& s) { return p.active.begin == p.active.end && !s.shaded; }
 
  private:
-  struct Cone;
   struct Met;  // a Gaussian as the cone of the square's rays meets it
   struct Build;
   struct Neighbourhood;
