@@ -22,8 +22,7 @@ struct LaneBasis {
     if (made) return;
     const Real3 d = pixel_rays(a.view, view.tile, i);
     const Real3 n{load(view.plane(a.normal, 0) + i), load(view.plane(a.normal, 1) + i), load(view.plane(a.normal, 2) + i)};
-    const Real twice = dot(n, d) * 2.0;
-    const Real3 mirror{fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
+    const Real3 mirror = mirrored(n, d);
     sh_basis(6, -mirror.z, mirror.x, mirror.y, v);
     made = true;
   }

@@ -60,9 +60,8 @@ struct LaneSurface {
     normal = {load(view.plane(a.normal, 0) + i), load(view.plane(a.normal, 1) + i), load(view.plane(a.normal, 2) + i)};
     const Real depth = select(hit, load(view.plane(a.distance) + i), 0.0);
     place = {d.x * depth, d.y * depth, d.z * depth};
-    const Real twice = dot(normal, d) * 2.0;
     viewer = {-d.x, -d.y, -d.z};
-    mirror = {fma(-twice, normal.x, d.x), fma(-twice, normal.y, d.y), fma(-twice, normal.z, d.z)};
+    mirror = mirrored(normal, d);
   }
 };
 

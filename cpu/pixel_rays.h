@@ -18,6 +18,11 @@ struct Real3 {
 };
 HWY_INLINE Real3 real3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 HWY_INLINE Real dot(const Real3& a, const Real3& b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+// A direction reflected by a surface of this unit normal.
+HWY_INLINE Real3 mirrored(const Real3& n, const Real3& d) {
+  const Real twice = dot(n, d) * 2.0;
+  return {fma(-twice, n.x, d.x), fma(-twice, n.y, d.y), fma(-twice, n.z, d.z)};
+}
 
 // Unit directions of the rays of pixels i .. i + lanes - 1 of the tile.
 HWY_INLINE Real3 pixel_rays(const View& view, const Tile& tile, int i) {

@@ -7,6 +7,6 @@ vec3 environment_lobe(int t, int share, vec3 about) {
 
 // The same of a material's lobe about the mirror direction of d, seen by a surface of this normal.
 vec3 environment_mirrored(int t, int share, vec3 n, vec3 d) {
-  vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
+  vec3 mirror = mirrored(n, d);
   return environment_lobe(t, share, mirror) * environment_share(t, dot3(n, mirror));
 }

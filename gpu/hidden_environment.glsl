@@ -32,7 +32,7 @@ void main() {
     vec3 weights = vec3(1.0 - corners.y - corners.z, corners.y, corners.z);
     vec3 d = pixel_ray(p);
     vec3 n = texelFetch(normal_image, at, 0).xyz;
-    vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
+    vec3 mirror = mirrored(n, d);
     float v[36];
     sh_basis(6, -mirror.z, mirror.x, mirror.y, v);
     int lobes = head_floats + 2 * vertex_floats * vertices;

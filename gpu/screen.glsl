@@ -27,6 +27,8 @@ vec3 pixel_ray(ivec2 p) {
 
 // The same order as in the CPU kernels.
 float dot3(vec3 a, vec3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+// A direction reflected by a surface of this unit normal.
+vec3 mirrored(vec3 n, vec3 d) { return fma(vec3(-2.0 * dot3(n, d)), n, d); }
 
 // Two vectors a light: position or direction of travel, and radius; power, and 1 for a directional light.
 #if defined(MOST_LIGHTS) || defined(MANY_LIGHTS)

@@ -46,7 +46,7 @@ void main() {
     vec3 d = pixel_ray(p);
     vec3 n = texelFetch(normal_image, at, 0).xyz;
     vec3 point = d * texelFetch(distance_image, at, 0).x;
-    vec3 mirror = fma(vec3(-2.0 * dot3(n, d)), n, d);
+    vec3 mirror = mirrored(n, d);
     for (int k = 0; k < light_count.x; ++k) {
       vec4 vector_radius = light_values[2 * k];
       vec4 power_directional = light_values[2 * k + 1];
