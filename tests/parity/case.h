@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,7 @@ struct NamedCase {
   std::string_view name;  // algorithm/what is special
   Case (*make)(Extent);
 };
+inline void PrintTo(const NamedCase& c, std::ostream* out) { *out << c.name; }
 
 // One list an algorithm, in the file of its name, and one of whole frames.
 std::span<const NamedCase> surface_visibility_cases();
