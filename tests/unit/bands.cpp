@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
 
 #include "app/airlight.h"
 #include "common/plan/rows.h"
@@ -54,6 +55,7 @@ struct Way {
   int height = 330;
   bool on_gl = true;
 };
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
 std::vector<Way> ways() {
   return {
