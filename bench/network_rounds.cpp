@@ -151,7 +151,7 @@ struct Settled {
     NetworkParts parts = parts_of(scene, 1024, 128, tolerance, iterations);
     parts.gradients = gradients;
     for (int i = 0; i < runs; ++i) {
-      backend = std::make_unique<CpuBackend>(CpuOptions{});
+      backend = std::make_unique<CpuBackend>(CpuOptions{.threads = 1});
       ran = run(*backend, scene, parts);
       milliseconds = std::min(milliseconds, ran.milliseconds[2]);
     }
@@ -172,7 +172,7 @@ void convergence() {
   fmt::print(
       "\nRounds, 1024 particles and 128 directions, isotropic. Published: until 10 %, 1 % and 0.1 % of the light are missing.\n"
       "Orders of scattering, conjugate gradients: until 0.1 % are told to be left out, what all sources together then are off,\n"
-      "and milliseconds of one core of the whole step, the least of {} runs\n",
+      "and milliseconds of one thread of the whole step, the least of {} runs\n",
       runs);
   for (const double depth : {1.0, 10.0, 40.0}) {
     for (const double albedo : {0.5, 0.9, 0.99, 1.0}) {
@@ -199,7 +199,7 @@ void curve() {
       "published;\n"
       "for orders of scattering and conjugate gradients what an order changes of all sources, what they are off and what is "
       "told\n"
-      "to be left out, beside what they are; milliseconds of one core of the whole step, the least of {} runs\n"
+      "to be left out, beside what they are; milliseconds of one thread of the whole step, the least of {} runs\n"
       "{:>5} {:>9} | {:>8} {:>8} {:>8} {:>6} | {:>8} {:>8} {:>8} {:>6}\n",
       depth, albedo, runs, "round", "published", "change", "off", "told", "ms", "change", "off", "told", "ms");
   const Scene scene = network_cloud(depth, albedo, 0);
