@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 #include <span>
 #include <string>
 #include <thread>
@@ -133,112 +134,88 @@ std::vector<double> published(CpuBackend& backend, const Ran& ran, int rounds) {
   return means;
 }
 
-// The same equations as the rounds of NetworkIteration, isotropic, of the first channel, in double: what particles take is
-// symmetric in those that send and those that take, so that conjugate gradients solve them, of which an iteration takes a round's
-// sweeps. Gives how much all sources are off after each, beside what rounds made of them.
-std::vector<double> conjugate_gradients(CpuBackend& backend, const Ran& ran, int rounds) {
-  const NetworkShape shape = ran.network.network.shape();
-  const std::vector<float> links = download(backend, ran.network.network.links),
-                           first = download(backend, ran.network.light.first),
-                           sources = download(backend, ran.network.iteration.sources);
-  const auto* lines = reinterpret_cast<const std::int32_t*>(ran.all.buffers[1].second.data());
-  const std::size_t n = shape.particles;
-  using Values = std::vector<double>;
-  Values weight(n, 0.0);
-  const auto sweep = [&](const Values* sent, Values& taken) {
-    std::fill(taken.begin(), taken.end(), 0.0);
-    for (std::size_t l = 0; l < shape.lines; ++l) {
-      const double area = 0x1p-40 * lines[l * line_fields + line_pixel] * lines[l * line_fields + line_pixel + 1];
-      const float* begin = links.data() + l * (shape.slots + 1);
-      for (std::size_t c = 0; c < shape.slots; ++c) {
-        const auto at = static_cast<std::size_t>(begin[c]) + c, count = static_cast<std::size_t>(begin[c + 1]) + c - at;
-        const auto of = [&](int plane, std::size_t k) { return static_cast<double>(links[shape.record(l, plane) + at + k]); };
-        double beam = 0;
-        for (std::size_t step = 0; count > 0 && step < 2 * (count + 1); ++step) {
-          if (step % (count + 1) == 0) beam = 0;
-          const std::size_t k = step <= count ? step : 2 * count + 1 - step;
-          const auto a = static_cast<std::size_t>(of(link_particle, k == 0 ? 0 : k - 1)),
-                     b = static_cast<std::size_t>(of(link_particle, k == count ? count - 1 : k));
-          double got = of(link_depth, k);  // the weights, without anything sent
-          if (sent) {
-            const double mean = 0.5 * ((*sent)[a] + (*sent)[b]);
-            got = of(link_given, k) * beam + of(link_kept, k) * mean;
-            beam += of(link_given, k) * mean - of(link_lost, k) * beam;
-          }
-          taken[a] += 0.5 * area * got, taken[b] += 0.5 * area * got;
-        }
-      }
-    }
-  };
-  sweep(nullptr, weight);
-  const auto albedo = static_cast<double>(ran.network.network.gaussians[0].albedo.x);
-  Values x(n), residual(n), way(n), taken(n);
-  // (weight / albedo - taken) x = weight / albedo first, from x = first on, preconditioned by weight / albedo.
-  for (std::size_t v = 0; v < n; ++v) x[v] = static_cast<double>(first[4 * v]), weight[v] /= albedo;
-  sweep(&x, residual);
-  const auto scaled = [&] {
-    double sum = 0;
-    for (std::size_t v = 0; v < n; ++v) sum += weight[v] > 0 ? residual[v] * residual[v] / weight[v] : 0;
-    return sum;
-  };
-  double size = scaled(), before = 0;
-  std::vector<Values> all;
-  for (int round = 0; round < rounds && size > 0; ++round) {
-    for (std::size_t v = 0; v < n; ++v)
-      way[v] = (weight[v] > 0 ? residual[v] / weight[v] : 0) + (before > 0 ? size / before : 0) * way[v];
-    sweep(&way, taken);
-    double along = 0;
-    for (std::size_t v = 0; v < n; ++v) along += way[v] * (weight[v] * way[v] - taken[v]);
-    if (!(along > 0)) break;
-    for (std::size_t v = 0; v < n; ++v)
-      x[v] += size / along * way[v], residual[v] -= size / along * (weight[v] * way[v] - taken[v]);
-    before = size, size = scaled();
-    all.push_back(x);
-  }
-  std::vector<double> off;
-  for (const Values& one : all) {
-    double sum = 0, end = 0;
-    for (std::size_t v = 0; v < n; ++v) {
-      const auto settled = static_cast<double>(sources[4 * v]);
-      sum += std::fabs(one[v] - settled), end += settled;
-    }
-    off.push_back(sum / end);
-  }
-  return off;
-}
-
 // Rounds until no more than a share of the light is missing of what there is in the end.
 int rounds_to(const std::vector<double>& sums, double share) {
   const auto enough = [&](double sum) { return sum >= (1 - share) * sums.back(); };
   return static_cast<int>(std::find_if(sums.begin(), sums.end(), enough) - sums.begin()) + 1;
 }
 
-void convergence(CpuBackend& backend) {
-  fmt::print(
-      "\nRounds until 10 %, 1 % and 0.1 % of the light are missing, 1024 particles and 128 directions, isotropic: a whole order "
-      "of\n"
-      "scattering a round, and as published; milliseconds of one core for ours to 0.1 %. Conjugate gradients, which take a\n"
-      "round's sweeps an iteration and are in this program alone: iterations until all sources together are off by as much\n");
-  for (const double depth : {4.0, 10.0, 40.0}) {
-    for (const double albedo : {0.9, 0.99, 1.0}) {
-      const Scene scene = network_cloud(depth, albedo, 0);
-      const Ran ran = run(backend, scene, parts_of(scene, 1024, 128, 0, 6000));
-      std::vector<double> ours;
-      double sum = 1;
-      for (const float change : ran.steps[2].residuals) ours.push_back(sum /= 1 - static_cast<double>(change));
-      const std::vector<double> theirs = published(backend, ran, 8000);
-      fmt::print("depth {:3}, albedo {:4}: {:>4} {:>4} {:>5}, published {:>4} {:>4} {:>5}", depth, albedo, rounds_to(ours, 0.1),
-                 rounds_to(ours, 0.01), rounds_to(ours, 0.001), rounds_to(theirs, 0.1), rounds_to(theirs, 0.01),
-                 rounds_to(theirs, 0.001));
-      const double a_round = 1e-3 * ran.milliseconds[2] / static_cast<double>(ran.steps[2].residuals.size());
-      const std::vector<double> gradients = conjugate_gradients(backend, ran, 200);
-      const auto iterations_to = [&](double share) {
-        const auto last = std::find_if(gradients.rbegin(), gradients.rend(), [&](double off) { return off > share; });
-        return gradients.rend() - last + 1;
-      };
-      fmt::print("; {:.1f} ms; gradients {:>3} {:>3} {:>3}\n", 1e3 * a_round * rounds_to(ours, 0.001), iterations_to(0.1),
-                 iterations_to(0.01), iterations_to(0.001));
+// The iteration with 1024 particles and 128 directions, and the least time that it takes of a few runs.
+struct Settled {
+  std::unique_ptr<CpuBackend> backend;
+  Ran ran;
+  std::vector<double> sources;
+  double milliseconds = 1e9;
+
+  Settled(const Scene& scene, bool gradients, float tolerance, int iterations, int runs) {
+    NetworkParts parts = parts_of(scene, 1024, 128, tolerance, iterations);
+    parts.gradients = gradients;
+    for (int i = 0; i < runs; ++i) {
+      backend = std::make_unique<CpuBackend>(CpuOptions{.threads = 1});
+      ran = run(*backend, scene, parts);
+      milliseconds = std::min(milliseconds, ran.milliseconds[2]);
     }
+    for (const float one : download(*backend, ran.network.iteration.sources)) sources.push_back(static_cast<double>(one));
+  }
+
+  // Of all sources together, beside what they are in the end.
+  double off(const Settled& end) const {
+    double sum = 0, all = 0;
+    for (std::size_t k = 0; k < sources.size(); ++k) sum += std::fabs(sources[k] - end.sources[k]), all += end.sources[k];
+    return sum / all;
+  }
+};
+
+constexpr int runs = 7;
+
+void convergence() {
+  fmt::print(
+      "\nRounds, 1024 particles and 128 directions, isotropic. Published: until 10 %, 1 % and 0.1 % of the light are missing.\n"
+      "Orders of scattering, conjugate gradients: until 0.1 % are told to be left out, what all sources together then are off,\n"
+      "and milliseconds of one thread of the whole step, the least of {} runs\n",
+      runs);
+  for (const double depth : {1.0, 10.0, 40.0}) {
+    for (const double albedo : {0.5, 0.9, 0.99, 1.0}) {
+      const Scene scene = network_cloud(depth, albedo, 0);
+      const Settled end(scene, false, 0, 3000, 1);
+      const std::vector<double> theirs = published(*end.backend, end.ran, 4000);
+      fmt::print("depth {:3}, albedo {:4}: published {:>4} {:>4} {:>5}", depth, albedo, rounds_to(theirs, 0.1),
+                 rounds_to(theirs, 0.01), rounds_to(theirs, 0.001));
+      for (const bool gradients : {false, true}) {
+        const Settled some(scene, gradients, 1e-3F, 1000, runs);
+        fmt::print("; {} {:>4} rounds, {:7.4f} %, {:6.2f} ms", gradients ? "gradients" : "orders",
+                   some.ran.steps[2].residuals.size(), 100 * some.off(end), some.milliseconds);
+      }
+      fmt::print("\n");
+      std::fflush(stdout);
+    }
+  }
+}
+
+void curve() {
+  constexpr double depth = 10, albedo = 0.99;
+  fmt::print(
+      "\nConvergence by rounds, depth {}, albedo {}, 1024 particles and 128 directions: what the last round changed as "
+      "published;\n"
+      "for orders of scattering and conjugate gradients what an order changes of all sources, what they are off and what is "
+      "told\n"
+      "to be left out, beside what they are; milliseconds of one thread of the whole step, the least of {} runs\n"
+      "{:>5} {:>9} | {:>8} {:>8} {:>8} {:>6} | {:>8} {:>8} {:>8} {:>6}\n",
+      depth, albedo, runs, "round", "published", "change", "off", "told", "ms", "change", "off", "told", "ms");
+  const Scene scene = network_cloud(depth, albedo, 0);
+  const Settled end(scene, false, 0, 3000, 1);
+  const std::vector<double> theirs = published(*end.backend, end.ran, 100);
+  for (const int rounds : {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 48, 64}) {
+    const auto k = static_cast<std::size_t>(rounds) - 1;
+    fmt::print("{:>5} {:>9.1e}", rounds, k == 0 ? 1.0 : 1 - theirs[k - 1] / theirs[k]);
+    for (const bool gradients : {false, true}) {
+      const Settled some(scene, gradients, 0, rounds, runs);
+      const StepStats& stats = some.ran.steps[2];
+      fmt::print(" | {:>8.1e} {:>8.1e} {:>8.1e} {:>6.2f}", static_cast<double>(stats.residuals.back()), some.off(end),
+                 static_cast<double>(stats.left_out), some.milliseconds);
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
   }
 }
 
@@ -248,12 +225,12 @@ void convergence(CpuBackend& backend) {
 
 int main(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "";
-  if (argc > 2 || (!part.empty() && part != "costs" && part != "rounds")) {
-    fmt::print(stderr, "airlight-network-rounds [costs|rounds]\n");
+  if (argc > 2 || (!part.empty() && part != "costs" && part != "rounds" && part != "curve")) {
+    fmt::print(stderr, "airlight-network-rounds [costs|rounds|curve]\n");
     return 2;
   }
-  if (part != "rounds") airlight::costs();
-  airlight::CpuBackend backend(airlight::CpuOptions{});
-  if (part != "costs") airlight::convergence(backend);
+  if (part.empty() || part == "costs") airlight::costs();
+  if (part.empty() || part == "rounds") airlight::convergence();
+  if (part.empty() || part == "curve") airlight::curve();
   return 0;
 }

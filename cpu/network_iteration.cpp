@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/algorithms/gradients.h"
 #include "cpu/kernels.h"
 #include "cpu/network_links.h"
 #include "cpu/network_scatter.h"
@@ -31,7 +32,8 @@ struct Iteration {
   Simd simd;
   const float *particles, *links, *first;
   const std::int32_t* lines;
-  float *sources, *residuals;
+  float* sources;
+  std::span<float> residuals;
   std::size_t n, line_count;
   std::size_t row;  // floats of a row of sources: one particle more than there are, of a multiple of as many as lanes
   std::vector<LineLists> lists;
@@ -46,13 +48,14 @@ struct Iteration {
         first(view.floats(a.first)),
         lines(view.integers(a.lines)),
         sources(view.made(a.sources)),
-        residuals(view.made(a.residuals)),
+        residuals(view.made(a.residuals), a.residual_floats()),
         n(static_cast<std::size_t>(a.particle_count)),
         line_count(static_cast<std::size_t>(a.line_count)),
         row(4 * particle_padding * (n / particle_padding + 1)),
         lists(line_count),
         sky(4 * 2 * line_count, 0.0F) {
     if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
+    std::fill(residuals.begin(), residuals.end(), 0.0F);
     each_line([&](std::size_t l, std::size_t) { lists[l] = LineLists(links_of(l), n); });
   }
 
@@ -78,58 +81,108 @@ struct Iteration {
   template <class Round>
   void iterate(std::size_t batches, Round&& round) {
     std::vector<SourceChange> changes(batches);
-    std::fill_n(residuals, 1 + static_cast<std::size_t>(a.iterations), 0.0F);
     for (int k = 0; k < a.iterations; ++k) {
       round(changes);
       SourceChange all;
       for (const SourceChange& c : changes) all.add(c);
-      residuals[0] = static_cast<float>(k + 1);
-      residuals[1 + k] = static_cast<float>(all.change / std::max(all.sum, 1e-30));
-      if (a.left_out({residuals + 1, static_cast<std::size_t>(k + 1)}) <= a.tolerance) break;
+      if (a.add_round(residuals, k, all.change / std::max(all.sum, 1e-30))) break;
     }
   }
 };
 
-// What particles take in all directions is one number a channel.
+// Isotropic: what particles take in all directions is one number a channel. Lines are swept in groups, whose sums are of a fixed
+// order.
+class EvenSweeps {
+ public:
+  explicit EvenSweeps(Iteration& it)
+      : it_(it), taken_(line_groups * it.row), scratch_(static_cast<std::size_t>(it.workers.threads())) {
+    std::size_t scratch_floats = 0;
+    for (const LineLists& lists : it.lists) scratch_floats = std::max(scratch_floats, lists.scratch_floats());
+    for (std::vector<float>& s : scratch_) s.resize(scratch_floats);
+  }
+
+  // 1 over half of what a particle could take both ways.
+  std::vector<float> shares() const {
+    std::vector<float> weight(line_groups * it_.n, 0.0F), shares(it_.n);
+    each_group([&](std::size_t group, std::size_t begin, std::size_t end, int) {
+      for (std::size_t l = begin; l < end; ++l) add_weights(it_.links_of(l), weight.data() + group * it_.n);
+    });
+    for (std::size_t v = 0; v < it_.n; ++v) {
+      float weights = 0;
+      for (std::size_t g = 0; g < line_groups; ++g) weights += weight[g * it_.n + v];
+      shares[v] = 0.5F / std::max(weights, 1e-30F);
+    }
+    return shares;
+  }
+
+  // What each group's lines bring of sources, a row of floats each.
+  const float* sweep(const float* source, bool under_sky) {
+    static constexpr float none[8] = {};
+    each_group([&](std::size_t group, std::size_t begin, std::size_t end, int worker) {
+      float *to = taken_.data() + group * it_.row, *own = scratch_[static_cast<std::size_t>(worker)].data();
+      std::fill_n(to, it_.row, 0.0F);
+      for (std::size_t l = begin; l < end; ++l)
+        sweep_both_ways(it_.lists[l], source, under_sky ? it_.sky.data() + 8 * l : none, own, to, it_.simd);
+    });
+    return taken_.data();
+  }
+
+ private:
+  // body(group, its first line, the one after its last, worker)
+  template <class Body>
+  void each_group(Body&& body) const {
+    it_.workers.each(line_groups, [&](int g, int worker) {
+      const auto group = static_cast<std::size_t>(g);
+      body(group, group * it_.line_count / line_groups, (group + 1) * it_.line_count / line_groups, worker);
+    });
+  }
+
+  Iteration& it_;
+  std::vector<float> taken_;
+  std::vector<std::vector<float>> scratch_;
+};
+
+// Each round an order of scattering.
 void isotropic(Iteration& it) {
   const std::size_t row = it.row;
-  std::vector<float> first(row, 0.0F), source, factor = it.albedos(), weight(line_groups * it.n, 0.0F), taken(line_groups * row);
+  EvenSweeps sweeps(it);
+  std::vector<float> first(row, 0.0F), factor = it.albedos();
   std::copy_n(it.first, 4 * it.n, first.begin());
-  source = first;
-  std::size_t scratch_floats = 0;
-  for (const LineLists& lists : it.lists) scratch_floats = std::max(scratch_floats, lists.scratch_floats());
-  std::vector<std::vector<float>> scratch(static_cast<std::size_t>(it.workers.threads()), std::vector<float>(scratch_floats));
-  // body(group, its first line, the one after its last, worker)
-  const auto each_group = [&](auto&& body) {
-    it.workers.each(line_groups, [&](int g, int worker) {
-      const auto group = static_cast<std::size_t>(g);
-      body(group, group * it.line_count / line_groups, (group + 1) * it.line_count / line_groups, worker);
-    });
-  };
-  each_group([&](std::size_t group, std::size_t begin, std::size_t end, int) {
-    for (std::size_t l = begin; l < end; ++l) add_weights(it.links_of(l), weight.data() + group * it.n);
-  });
+  std::vector<float> source = first;
+  const std::vector<float> share = sweeps.shares();
   for (std::size_t v = 0; v < it.n; ++v) {
-    float weights = 0;
-    for (std::size_t g = 0; g < line_groups; ++g) weights += weight[g * it.n + v];
-    for (std::size_t c = 0; c < 3; ++c) factor[4 * v + c] *= 0.5F / std::max(weights, 1e-30F);
+    for (std::size_t c = 0; c < 3; ++c) factor[4 * v + c] *= share[v];
   }
   EvenScatter scatter{{}, factor.data(), first.data(), source.data()};
-  for (std::size_t g = 0; g < line_groups; ++g) scatter.taken[g] = taken.data() + g * row;
   const std::size_t batches = (row + 4 * batch - 1) / (4 * batch);
   it.iterate(batches, [&](std::vector<SourceChange>& changes) {
-    each_group([&](std::size_t group, std::size_t begin, std::size_t end, int worker) {
-      float *to = taken.data() + group * row, *own = scratch[static_cast<std::size_t>(worker)].data();
-      std::fill_n(to, row, 0.0F);
-      for (std::size_t l = begin; l < end; ++l)
-        sweep_both_ways(it.lists[l], source.data(), it.sky.data() + 8 * l, own, to, it.simd);
-    });
+    const float* taken = sweeps.sweep(source.data(), true);
+    for (std::size_t g = 0; g < line_groups; ++g) scatter.taken[g] = taken + g * row;
     it.workers.each(static_cast<int>(batches), [&](int b, int) {
       const std::size_t at = 4 * batch * static_cast<std::size_t>(b);
       changes[static_cast<std::size_t>(b)] = scatter_evenly(scatter, at, std::min(at + 4 * batch, row), it.simd);
     });
   });
   std::copy_n(source.data(), 4 * it.n, it.sources);
+}
+
+// Each round one of conjugate gradients; but for the sweeps they are little work.
+void isotropic_gradients(Iteration& it) {
+  EvenSweeps sweeps(it);
+  std::vector<float> first(it.row, 0.0F), all(it.row);
+  std::copy_n(it.first, 4 * it.n, first.begin());
+  Gradients gradients(first, {it.particles + particle_albedo * it.n, 3 * it.n}, sweeps.shares());
+  for (int k = 0; k < it.a.iterations; ++k) {
+    const float* taken = sweeps.sweep(gradients.way().data(), k == 0);
+    std::copy_n(taken, it.row, all.begin());
+    for (std::size_t g = 1; g < line_groups; ++g) {
+      const float* of_group = taken + g * it.row;
+      for (std::size_t e = 0; e < it.row; ++e) all[e] += of_group[e];
+    }
+    gradients.take(all);
+    if (it.a.add_round(it.residuals, k, gradients.change(), gradients.left_out())) break;
+  }
+  gradients.finish({it.sources, 4 * it.n});
 }
 
 // A source in each direction. What a particle takes of one is shared out by the phase function over the directions in which it
@@ -189,7 +242,9 @@ void anisotropic(Iteration& it) {
 
 void run_volume(const NetworkIteration& a, const BufferView& view, Workers& workers, Simd simd) {
   Iteration it(a, view, workers, simd);
-  if (a.phase.kind == PhaseKind::isotropic) {
+  if (a.gradients) {
+    isotropic_gradients(it);
+  } else if (a.phase.kind == PhaseKind::isotropic) {
     isotropic(it);
   } else {
     anisotropic(it);

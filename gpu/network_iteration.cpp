@@ -1,12 +1,50 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/algorithms/gradients.h"
 #include "gpu/network.h"
 
 namespace airlight {
 
+namespace {
+
+constexpr GLuint words_number = 50, taken_number = 51, matrix_number = 52, residuals_number = 53,
+                 way_number = 54;  // of this step
+
+// Light is swept here; sources are told between, of few floats beside all links.
+template <class Each>
+void run_gradients(const NetworkIteration& a, StepRunner& r, const Progress& progress, std::size_t sky_at, Each&& each) {
+  const NetworkShape shape = a.shape();
+  const std::size_t n = shape.particles;
+  const auto floats_of = [](const std::vector<std::byte>& bytes) {
+    return std::span(reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float));
+  };
+  const std::vector<std::byte> first = r.content(a.first), particles = r.content(a.particles);
+  const std::vector<float> no_sky(8 * shape.lines, 0.0F);
+  std::vector<float> share(n), taken(4 * n), residuals(a.residual_floats(), 0.0F);
+  r.read_storage(words_number, std::as_writable_bytes(std::span(share)));
+  Gradients gradients(floats_of(first), floats_of(particles).subspan(particle_albedo * n, 3 * n), share);
+  for (int k = 0; k < a.iterations; ++k) {
+    progress.check();
+    r.fill(way_number, std::as_bytes(gradients.way()));
+    r.bind(3, way_number);
+    each("SWEEP", shape.lines * shape.slots);
+    each("TAKEN", n);
+    r.read_storage(taken_number, std::as_writable_bytes(std::span(taken)));
+    if (k == 0) r.write_storage(words_number, sky_at, std::as_bytes(std::span(no_sky)));
+    gradients.take(taken);
+    if (a.add_round(residuals, k, gradients.change(), gradients.left_out())) break;
+  }
+  gradients.finish(taken);
+  r.fill(way_number, std::as_bytes(std::span(taken)));
+  r.copy_back(way_number, r.buffer_name(a.sources), a.sources.bytes);
+  r.fill(residuals_number, std::as_bytes(std::span(residuals)));
+  r.copy_back(residuals_number, r.buffer_name(a.residuals), a.residuals.bytes);
+}
+
+}  // namespace
+
 void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
-  constexpr GLuint words_number = 50, taken_number = 51, matrix_number = 52, residuals_number = 53;  // buffers of this step
   const NetworkShape shape = a.shape();
   const bool isotropic = a.phase.kind == PhaseKind::isotropic;
   const std::size_t n = shape.particles, directions = 2 * shape.lines, sources = isotropic ? n : n * directions;
@@ -43,7 +81,11 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
   each("START", sources);
   each("WEIGHTS", shape.lines * shape.slots);
   each("SHARES", sources);
-  std::vector<float> residuals(1 + static_cast<std::size_t>(a.iterations), 0.0F);
+  if (a.gradients) {
+    run_gradients(a, r, progress, sky_at, each);
+    return;
+  }
+  std::vector<float> residuals(a.residual_floats(), 0.0F);
   std::vector<float> changes(2 * n);
   for (int k = 0; k < a.iterations; ++k) {
     progress.check();
@@ -54,10 +96,7 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
     double change = 0, sum = 0;
     for (std::size_t v = 0; v < n; ++v)
       change += static_cast<double>(changes[2 * v]), sum += static_cast<double>(changes[2 * v + 1]);
-    const auto made = static_cast<std::size_t>(k + 1);
-    residuals[0] = static_cast<float>(made);
-    residuals[made] = static_cast<float>(change / std::max(sum, 1e-30));
-    if (a.left_out(std::span(residuals).subspan(1, made)) <= a.tolerance) break;
+    if (a.add_round(residuals, k, change / std::max(sum, 1e-30))) break;
   }
   r.fill(residuals_number, std::as_bytes(std::span(residuals)));
   r.copy_back(residuals_number, r.buffer_name(a.residuals), a.residuals.bytes);

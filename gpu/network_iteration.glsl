@@ -1,7 +1,7 @@
-// Seven programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
+// Eight programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
 // particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by. SWEEP: light along
 // a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC. SUMS: what changed of
-// a particle, and what it sends, over all directions and channels.
+// a particle, and what it sends, over all directions and channels. TAKEN: what a particle takes along all lines, ISOTROPIC.
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/network.glsl"
@@ -87,6 +87,7 @@ void main() {
   float sum = 0.0;
   for (int line = 0; line < line_count; ++line) sum += uintBitsToFloat(words[weight_at(line, n)]);
   words[share_at(n)] = floatBitsToUint(0.5 / max(sum, 1e-30));
+  words[n] = words[share_at(n)];  // where it can be read back: nothing has changed yet
 #else
   int directions = 2 * line_count;
   if (n >= directions * particle_count) return;
@@ -137,6 +138,12 @@ void main() {
   vec3 change = abs(now - sources[n].xyz);
   sources[n] = vec4(now, 0.0);
   taken[n].w = change.x + change.y + change.z;
+#endif
+#ifdef TAKEN
+  if (n >= particle_count) return;
+  vec3 sum = taken[n].xyz;
+  for (int line = 1; line < line_count; ++line) sum += taken[line * particle_count + n].xyz;
+  taken[n] = vec4(sum, 0.0);
 #endif
 #ifdef SUMS
   if (n >= particle_count) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace airlight {
 // is the mean of its ends; a particle takes half of what its two links take (link_shares() in common/formulas/network.h) and
 // gives all of that, times its albedo, so that at albedo 1 as much light leaves the medium as sources put into it. As printed, a
 // particle's opacity is that of the link before it in whatever direction, and energy is lost.
+//
+// `gradients`: conjugate gradients (gradients.h) in place of a sum of orders, for an isotropic phase function alone: a round
+// takes the same sweeps, and the last one ends in an order of scattering, so that one round is the first order either way.
 struct NetworkIteration {
   Buffer particles, lines, links, first;
   Buffer sky;  // of an environment, optional: what light begins with beyond the lists' ends [W/m^2/sr], laid out as `first` of
@@ -23,11 +27,14 @@ struct NetworkIteration {
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
-  float tolerance = 1e-3F;  // it stops where left_out() is no more than that
+  float tolerance = 1e-3F;  // it stops where no more than that is left out
   int iterations = 100;     // at most, > 0
+  bool gradients = false;
 
   Buffer sources;    // laid out as `first`: all that a particle sends
-  Buffer residuals;  // how many rounds there were, then the change in each, 1 + iterations floats
+  Buffer residuals;  // how many rounds there were, what is left out, then what an order of scattering changed in each round
+
+  std::size_t residual_floats() const { return 2 + static_cast<std::size_t>(iterations); }
 
   // About how much more all sources together would be for all the rounds that were not made, beside what they are; `history` is
   // of the changes in each round, summed over all sources, beside their sum. Of a round each is a share of the one before that
@@ -43,12 +50,22 @@ struct NetworkIteration {
     return static_cast<float>(change * ratio / std::max(1 - ratio, 1e-6));
   }
 
+  // A round into the buffer of residuals, from 0 on. `left`: what is left out where that is not left_out() of the changes. True
+  // where it is little enough.
+  bool add_round(std::span<float> buffer, int round, double change, std::optional<double> left = std::nullopt) const {
+    const auto made = static_cast<std::size_t>(round) + 1;
+    buffer[0] = static_cast<float>(made);
+    buffer[1 + made] = static_cast<float>(change);
+    buffer[1] = left ? static_cast<float>(*left) : left_out(buffer.subspan(2, made));
+    return buffer[1] <= tolerance;
+  }
+
   // What the buffer of residuals says, to the statistics of a step.
   template <class Stats>
   void tell(std::span<const float> buffer, Stats& stats) const {
-    const auto history = buffer.subspan(1, static_cast<std::size_t>(buffer[0]));
+    const auto history = buffer.subspan(2, static_cast<std::size_t>(buffer[0]));
     stats.residuals.assign(history.begin(), history.end());
-    stats.left_out = left_out(history);
+    stats.left_out = buffer[1];
     stats.converged = stats.left_out <= tolerance;
   }
 
@@ -72,6 +89,7 @@ struct NetworkIteration {
     v(knob("window"), s.window);
     v(knob("tolerance"), s.tolerance);
     v(knob("iterations"), s.iterations);
+    v(knob("gradients"), s.gradients);
     v(out("sources", "W/m^2/sr"), s.sources);
     v(out("residuals"), s.residuals);
   }

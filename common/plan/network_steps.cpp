@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <string>
+#include <string_view>
 
 #include "common/algorithms/particle_light.h"
 #include "common/algorithms/source_function.h"
@@ -31,6 +32,13 @@ void refuse_size(int particles, std::size_t directions, std::size_t floats) {
     throw InputError("setting particles: the network of " + std::to_string(particles) + " particles and " +
                      std::to_string(directions) + " directions would take " + std::to_string(floats >> 18U) +
                      " MiB, expected at most " + std::to_string(most_floats >> 18U));
+}
+
+std::string_view reason_of(const NetworkIteration& iteration, const KnobValues& knobs) {
+  if (iteration.gradients) return "light from particle to particle, by conjugate gradients: the phase function is isotropic";
+  return knobs.choice("acceleration") == "off"
+             ? "light from particle to particle, an order of scattering a round"
+             : "light from particle to particle, an order of scattering a round: the phase function depends on the direction";
 }
 
 }  // namespace
@@ -104,20 +112,22 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   for (const std::size_t index : frame.light_index) light.lights.push_back(light_of(scene.lights[index], lattice.middle));
   frame.plan.steps.push_back({light, "what each particle scatters of the lights"});
 
-  const NetworkIteration iteration{.particles = network.particles,
-                                   .lines = network.lines,
-                                   .links = network.links,
-                                   .first = light.first,
-                                   .sky = sky,
-                                   .phase = medium.phase,
-                                   .particle_count = particles,
-                                   .line_count = lines,
-                                   .window = window,
-                                   .tolerance = static_cast<float>(knobs.number("tolerance")),
-                                   .iterations = iterations,
-                                   .sources = {{particle_sources_id}, bytes(values)},
-                                   .residuals = {{residuals_id}, sizeof(float) * (1 + static_cast<std::size_t>(iterations))}};
-  frame.plan.steps.push_back({iteration, "light from particle to particle, an order of scattering a round"});
+  NetworkIteration iteration{.particles = network.particles,
+                             .lines = network.lines,
+                             .links = network.links,
+                             .first = light.first,
+                             .sky = sky,
+                             .phase = medium.phase,
+                             .particle_count = particles,
+                             .line_count = lines,
+                             .window = window,
+                             .tolerance = static_cast<float>(knobs.number("tolerance")),
+                             .iterations = iterations,
+                             .gradients = isotropic && knobs.choice("acceleration") == "on",
+                             .sources = {{particle_sources_id}, bytes(values)},
+                             .residuals = {}};
+  iteration.residuals = {{residuals_id}, bytes(iteration.residual_floats())};
+  frame.plan.steps.push_back({iteration, reason_of(iteration, knobs)});
 
   NetworkPlan made;
   made.lattice = lattice, made.particles = uploads[0], made.iteration = iteration;

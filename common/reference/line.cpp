@@ -71,6 +71,12 @@ glm::dvec3 LineInMedium::scattering(double t) const {
   return sum;
 }
 
+glm::dvec3 LineInMedium::glow(double t) const {
+  glm::dvec3 sum(0);
+  for (const OnLine& o : on_line_) sum += o.line.density(t) / o.line.c * o.gaussian->emission;
+  return sum;
+}
+
 double LineInMedium::extinction(double t) const {
   double sum = medium_.extinction;
   for (const OnLine& o : on_line_) sum += o.line.density(t);

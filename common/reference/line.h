@@ -31,6 +31,7 @@ class LineInMedium {
   double reach() const { return reach_; }  // [m] no farther than the length: beyond it nothing scatters toward the origin
   double extinction(double t) const;       // [1/m]
   glm::dvec3 scattering(double t) const;   // sigma_s [1/m]
+  glm::dvec3 glow(double t) const;         // emission of the Gaussians [W/m^3/sr]
 
   // Where the depth [1] is reached, to rounding: least t with depth(t) >= depth; reach() where there is none.
   double place(double depth) const;

@@ -51,11 +51,15 @@ Paths::Paths(const RelativeMedium& medium, const Visibility& visibility, const s
     : medium_(medium), visibility_(visibility), lights_(lights), environment_(environment), settings_(settings) {
   near_ = infinity;
   if (!(medium.extinction > 0) || environment) return;
-  double farthest = 0;
   for (const RelativeLight& light : lights) {
     if (light.directional && light.power != glm::dvec3(0)) return;
-    if (!light.directional) farthest = std::max(farthest, glm::length(light.vector));
+    if (!light.directional) begins_.push_back(light.vector);
   }
+  for (const Gaussian& one : medium.gaussians) {
+    if (one.emission != glm::dvec3(0)) begins_.push_back(one.center);
+  }
+  double farthest = 0;
+  for (const glm::dvec3& place : begins_) farthest = std::max(farthest, glm::length(place));
   near_ = farthest + 3 / (medium.extinction * (1 - std::fabs(medium.phase.g)));
 }
 
@@ -65,9 +69,7 @@ Paths::Paths(const RelativeMedium& medium, const Visibility& visibility, const s
 double Paths::importance(const glm::dvec3& point) const {
   if (near_ == infinity) return 1;
   double nearest = infinity;
-  for (const RelativeLight& light : lights_) {
-    if (!light.directional) nearest = std::min(nearest, glm::length(light.vector - point));
-  }
+  for (const glm::dvec3& place : begins_) nearest = std::min(nearest, glm::length(place - point));
   return std::pow(std::min(1.0, near_ / nearest), 1.5);
 }
 
@@ -122,7 +124,7 @@ glm::dvec3 Paths::scattered_environment(const LineInMedium& line, double t, Rand
   return from.weight * std::exp(-depth) * environment_->radiance(from.direction);
 }
 
-void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec3>& of_light, glm::dvec3& of_environment) const {
+void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec3>& of_light, glm::dvec3& of_others) const {
   std::optional<LineInMedium> flight;  // after the first vertex
   glm::dvec3 weight(1);
   double first = 0;  // largest weight after the first vertex
@@ -135,8 +137,9 @@ void Paths::walk(const LineInMedium& view, Random& random, std::vector<glm::dvec
         if (lights_[i].power != glm::dvec3(0)) of_light[i] += weight * lights_[i].power * scattered(line, v, lights_[i], random);
       }
     }
+    if (order > 1) of_others += weight * (v.met / v.extinction) * line.glow(v.t);
     if (environment_ && (order > 1 || settings_.single))
-      of_environment += weight * (v.met / v.extinction * v.scattering) * scattered_environment(line, v.t, random);
+      of_others += weight * (v.met / v.extinction * v.scattering) * scattered_environment(line, v.t, random);
     if (order == settings_.max_bounces) return;
     weight *= v.met / v.extinction * v.scattering;
     if (order == 1) first = largest(weight);
@@ -168,7 +171,7 @@ PathEstimate Paths::along(const LineInMedium& view, const glm::dvec2& at, const 
     glm::dvec3 sum(0);
     walk(view, random, of_light, sum);
     const double n = path + 1;
-    estimate.of_environment += (sum - estimate.of_environment) / n;
+    estimate.of_others += (sum - estimate.of_others) / n;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       sum += of_light[i];
       estimate.of_light[i] += (of_light[i] - estimate.of_light[i]) / n;

@@ -1,9 +1,10 @@
 // Multiple scattering by random paths in double, without bias.
 //
 // What is transported: light of the lamps that the medium scatters n times, n = 1..max_bounces, the last time toward the camera;
-// and light of an environment, which arrives unattenuated by the homogeneous part and is hidden by nothing. Surfaces that cast
+// what Gaussians emit, scattered fewer than max_bounces times but at least once, for the rest is no matter of paths; and light of
+// an environment, which arrives unattenuated by the homogeneous part and is hidden by nothing. Surfaces that cast
 // shadows end paths and block lights, black on this account: light that they reflect into the medium and light that the medium
-// scatters more than once onto them are not in it, nor is scattered ambient or emission.
+// scatters more than once onto them are not in it, nor is scattered ambient or what the homogeneous part emits.
 //
 // A path starts along the view ray; at each vertex it goes on by the phase function. The free flight is drawn by inverting the
 // exact optical depth (LineInMedium::place()), given that it ends in the medium, whose probability is the path's weight. What a
@@ -35,7 +36,7 @@ struct PathSettings {
 // Means over a pixel's paths [W/m^2/sr].
 struct PathEstimate {
   std::vector<glm::dvec3> of_light;
-  glm::dvec3 of_environment{0};
+  glm::dvec3 of_others{0};       // the environment, and what Gaussians emit
   glm::dvec3 standard_error{0};  // of their sum
 };
 
@@ -56,7 +57,7 @@ class Paths {
     glm::dvec3 scattering{0};
     double met = 0;  // probability that a flight along the line ends in the medium
   };
-  void walk(const LineInMedium&, Random&, std::vector<glm::dvec3>& of_light, glm::dvec3& of_environment) const;
+  void walk(const LineInMedium&, Random&, std::vector<glm::dvec3>& of_light, glm::dvec3& of_others) const;
   glm::dvec3 scattered_environment(const LineInMedium&, double t, Random&) const;
   Vertex free_flight(const LineInMedium&, Random&) const;
   glm::dvec3 scattered(const LineInMedium&, const Vertex&, const RelativeLight&, Random&) const;
@@ -68,7 +69,8 @@ class Paths {
   const std::vector<RelativeLight>& lights_;
   const EnvironmentLighting* environment_;
   PathSettings settings_;
-  double near_ = 0;  // [m] of importance(); infinite where it is 1
+  std::vector<glm::dvec3> begins_;  // where light does: point lights, and the middle of what glows
+  double near_ = 0;                 // [m] of importance(); infinite where it is 1
 };
 
 }  // namespace airlight

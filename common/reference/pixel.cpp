@@ -204,7 +204,7 @@ void Reference::add_airlight(const RayInMedium& ray, const glm::dvec2& at, Refer
       pixel.airlight_of_light[i] += more.of_light[i];
       pixel.airlight += more.of_light[i];
     }
-    pixel.airlight += more.of_environment;
+    pixel.airlight += more.of_others;
     pixel.standard_error = more.standard_error;
   }
   if (environment_ && !medium_.empty() && !settings_.single_by_paths) {

@@ -101,9 +101,12 @@ Technique illumination_network() {
           "direction_set", {"fibonacci", "random"},
           "directions spread evenly over the sphere, or at random, always the same ones, as published; with each its opposite",
           {}, {"random"}),
-      integer_knob("iterations", "1000", 1, 10000, "rounds at most: each is an order of scattering"),
+      integer_knob("iterations", "1000", 1, 10000, "rounds at most: each is an order of scattering, or as much work"),
       number_knob("tolerance", "0.001", 0, 1,
                   "rounds end where about that part of the light is left out, of orders of scattering that were not made"),
+      choice_knob("acceleration", {"on", "off"},
+                  "rounds of conjugate gradients, far fewer, where the phase function is isotropic; off, rounds are orders of "
+                  "scattering everywhere"),
       integer_knob("resolution", "32", 2, 256,
                    "cells of the source function along the longest edge of what matters of the medium"),
       integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium"),

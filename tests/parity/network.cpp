@@ -79,7 +79,8 @@ TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSou
   i.particle_count = n.particle_count, i.line_count = n.line_count, i.window = n.window;
   i.tolerance = parts.tolerance, i.iterations = parts.iterations;
   i.sources = floats(6, sources);
-  i.residuals = floats(7, 1 + static_cast<std::size_t>(parts.iterations));
+  i.gradients = parts.gradients;
+  i.residuals = floats(7, i.residual_floats());
 
   if (scene.environment) {
     const std::vector<float> sky = network_sky(*scene.environment, parts.lines, parts.set);

@@ -20,6 +20,7 @@ struct NetworkParts {
   float tolerance = 1e-6F;
   int iterations = 300;
   DirectionSet set = DirectionSet::fibonacci;
+  bool gradients = false;
 };
 
 // All four steps for the scene's medium under these lights and its environment; their inputs become buffers 1 to 3 and 9 of the

@@ -30,6 +30,12 @@ const NamedCase cases[] = {
      [](Extent) {
        return iterate(7, {.lines = 8, .phase = {PhaseKind::henyey_greenstein, 0.6}, .iterations = 40}, true);
      }},
+    {"network_iteration/gradients", [](Extent) { return iterate(7, {.gradients = true}); }},
+    {"network_iteration/gradients_sky", [](Extent) { return iterate(7, {.extinction = 0, .gradients = true}, true); }},
+    {"network_iteration/gradients_few",
+     [](Extent) { return iterate(7, {.particles = 333, .lines = 9, .tolerance = 0, .iterations = 3, .gradients = true}); }},
+    {"network_iteration/gradients_one_particle",
+     [](Extent) { return iterate(2, {.particles = 1, .lines = 1, .window = 1, .gradients = true}); }},
     {"network_iteration/first_order", [](Extent) { return iterate(5, {.iterations = 1}); }},
     {"network_iteration/one_particle", [](Extent) { return iterate(2, {.particles = 1, .lines = 1, .window = 1}); }},
 };

@@ -39,6 +39,18 @@ TEST(IlluminationNetworkTruth, Forward) {
   EXPECT_FALSE(!(std::fabs(found.mean - 1) <= tolerance("truth_network_forward")));
 }
 
+// Particles have the albedo and the glow of the Gaussians about them: one of these takes all light, one scatters all, one glows.
+TEST(IlluminationNetworkTruth, UnlikeGaussians) {
+  Scene scene = network_cloud(6, 1, 0);
+  const double albedos[] = {0.95, 1, 0, 0.5, 0.99};
+  for (std::size_t k = 0; k < 5; ++k) scene.medium.gaussians[k].albedo = glm::dvec3(albedos[k]);
+  for (const double glow : {0.0, 0.5}) {
+    scene.medium.gaussians[3].emission = glm::dvec3(glow);
+    const NetworkError found = measured(scene, network_truth(scene, extent, 400), {});
+    EXPECT_FALSE(!(found.error <= tolerance("truth_network"))) << glow;
+  }
+}
+
 // A bright sky above dim ground lights it, and is seen through it.
 TEST(IlluminationNetworkTruth, Sky) {
   Scene scene = network_cloud(4, 0.9, 0.3);

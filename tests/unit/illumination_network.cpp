@@ -76,9 +76,10 @@ double relative_largest(const std::vector<double>& found, const std::vector<doub
   return worst / largest;
 }
 
-TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
-  const RanNetwork ran(two_gaussians(0.9), network_lights(),
-                       {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400});
+void is_dense_solution(const Scene& scene, bool gradients) {
+  const RanNetwork ran(
+      scene, network_lights(),
+      {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400, .gradients = gradients});
   const std::size_t n = ran.shape.particles;
   std::vector<std::vector<double>> taken(n, std::vector<double>(n, 0.0));
   std::vector<double> weight(n, 0.0);
@@ -107,6 +108,42 @@ TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
   std::printf("%g of the largest, %g rounds\n", error, static_cast<double>(ran.residuals[0]));
   EXPECT_LE(error, tolerance("network_dense"));
   EXPECT_LT(ran.residuals[0], 400);
+}
+
+// One Gaussian scatters all light and the other no red: particles between them have an albedo each.
+Scene unlike_gaussians() {
+  Scene scene = two_gaussians(1);
+  scene.medium.gaussians[1].albedo = {0, 0.5, 1};
+  return scene;
+}
+
+TEST(IlluminationNetwork, IterationIsTheDenseSolution) { is_dense_solution(two_gaussians(0.9), false); }
+TEST(IlluminationNetwork, GradientsAreTheDenseSolution) {
+  is_dense_solution(two_gaussians(0.9), true);
+  is_dense_solution(two_gaussians(1), true);
+  is_dense_solution(unlike_gaussians(), true);
+}
+
+// Each channel is a system of its own: where nothing scatters, first sources are all; one particle scatters to itself alone.
+TEST(IlluminationNetwork, GradientsWhereLittleScatters) {
+  const RanNetwork black(two_gaussians(0), network_lights(), {.particles = 60, .lines = 6, .window = 4, .gradients = true});
+  EXPECT_EQ(black.sources, black.first);
+  EXPECT_EQ(black.residuals[0], 1);
+  EXPECT_EQ(black.residuals[1], 0);
+  const NetworkParts parts{.particles = 60, .lines = 6, .window = 4, .tolerance = 0, .gradients = true};
+  const RanNetwork unlike(unlike_gaussians(), network_lights(), parts);
+  Scene alike = unlike_gaussians();
+  for (Gaussian& g : alike.medium.gaussians) g.albedo = glm::dvec3(g.albedo.x);
+  const RanNetwork red(alike, network_lights(), parts);
+  for (std::size_t v = 0; v < unlike.shape.particles; ++v) EXPECT_EQ(unlike.sources[4 * v], red.sources[4 * v]) << v;
+  for (const bool gradients : {false, true}) {
+    const RanNetwork one(two_gaussians(1), network_lights(),
+                         {.particles = 1, .lines = 3, .window = 1, .tolerance = 1e-7F, .gradients = gradients});
+    std::printf("one particle: %.9g of %.9g after %g rounds\n", static_cast<double>(one.sources[0]),
+                static_cast<double>(one.first[0]), static_cast<double>(one.residuals[0]));
+    EXPECT_GT(one.sources[0], one.first[0]);
+    EXPECT_LE(one.residuals[0], gradients ? 3 : 100);
+  }
 }
 
 // The same where sources depend on the direction: one unknown a particle and direction.
@@ -165,7 +202,8 @@ TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
 }
 
 // At albedo 1, what leaves all lines is what the first sources put into them.
-void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, const Scene& scene = two_gaussians(1)) {
+void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, const Scene& scene = two_gaussians(1),
+               bool gradients = false) {
   const RanNetwork ran(scene, network_lights(),
                        {.particles = 200,
                         .lines = 10,
@@ -174,7 +212,8 @@ void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, c
                         .extinction = 0,
                         .tolerance = 0,
                         .iterations = 400,
-                        .set = set});
+                        .set = set,
+                        .gradients = gradients});
   const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
   const bool isotropic = phase.kind == PhaseKind::isotropic;
   const auto value = [&](std::size_t d, std::size_t v) { return 4 * ((isotropic ? 0 : d * n) + v); };
@@ -199,6 +238,7 @@ void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, c
 }
 
 TEST(IlluminationNetwork, WhatGoesInComesOut) { out_is_in({}); }
+TEST(IlluminationNetwork, WhatGoesInComesOutOfGradients) { out_is_in({}, DirectionSet::fibonacci, two_gaussians(1), true); }
 TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::henyey_greenstein, 0.7}); }
 TEST(IlluminationNetwork, WhatGoesInComesOutAtRandom) { out_is_in({PhaseKind::henyey_greenstein, 0.7}, DirectionSet::random); }
 
@@ -211,21 +251,22 @@ TEST(IlluminationNetwork, WhatGoesInComesOutOfCoincidentParticles) {
   std::set<std::array<float, 3>> places;
   for (std::size_t v = 0; v < 200; ++v) places.insert({planes[v], planes[200 + v], planes[400 + v]});
   EXPECT_LT(places.size(), 100U);
-  out_is_in({}, DirectionSet::fibonacci, scene);
+  for (const bool gradients : {false, true}) out_is_in({}, DirectionSet::fibonacci, scene, gradients);
 }
 
 // What glows by itself: where light meets nothing else it is all; where nothing gets through, all orders of it are there.
 TEST(IlluminationNetwork, ThinAndOpaqueMediaGlow) {
   constexpr double albedo = 0.5;
-  for (const double times : {1e-9, 1e9}) {
+  for (const auto& [times, gradients] : {std::pair{1e-9, false}, {1e9, false}, {1e-9, true}, {1e9, true}}) {
     Scene scene = two_gaussians(albedo);
     for (Gaussian& g : scene.medium.gaussians) g.extinction *= times, g.emission = glm::dvec3(g.extinction);
-    const RanNetwork ran(scene, {}, {.particles = 100, .lines = 8, .window = 4, .extinction = 0, .tolerance = 1e-7F});
+    const RanNetwork ran(
+        scene, {}, {.particles = 100, .lines = 8, .window = 4, .extinction = 0, .tolerance = 1e-7F, .gradients = gradients});
     const double expected = times < 1 ? 1 : 1 / (1 - albedo);
     double worst = 0;
     for (std::size_t v = 0; v < ran.shape.particles; ++v)
       worst = std::max(worst, std::fabs(static_cast<double>(ran.sources[4 * v]) / expected - 1));
-    std::printf("extinction times %g: off by %g\n", times, worst);
+    std::printf("extinction times %g, %g rounds: off by %g\n", times, static_cast<double>(ran.residuals[0]), worst);
     EXPECT_LE(worst, tolerance("network_glow"));
   }
 }

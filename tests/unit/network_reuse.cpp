@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
 #include "app/airlight.h"
 #include "common/techniques/technique.h"
@@ -50,6 +51,22 @@ TEST(NetworkReuse, OnlyWhatChangedIsMadeAgain) {
   EXPECT_EQ(ran(), "source_function ");
   scene.medium.gaussians[1].extinction *= 2;
   EXPECT_EQ(ran(), "visibility_network particle_light network_iteration source_function ");
+}
+
+// What the plan says of its rounds: conjugate gradients where the phase function is isotropic, unless they are off.
+TEST(NetworkReuse, ExplainTellsWhyLightGoesRoundAsItDoes) {
+  Scene scene = two_gaussians(0.8);
+  scene.lights = network_lights();
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  const auto tells = [&](std::string_view what) { return explain(scene, settings).find(what) != std::string::npos; };
+  EXPECT_TRUE(tells("by conjugate gradients: the phase function is isotropic"));
+  settings.knobs = {{"acceleration", "off"}};
+  EXPECT_FALSE(tells("gradients:"));
+  EXPECT_TRUE(tells("an order of scattering a round (")) << explain(scene, settings);
+  settings.knobs.clear();
+  scene.medium.phase = {PhaseKind::henyey_greenstein, 0.3};
+  EXPECT_TRUE(tells("an order of scattering a round: the phase function depends on the direction"));
 }
 
 TEST(IlluminationNetwork, RefusesWhatHasNoParticles) {

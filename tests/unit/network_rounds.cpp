@@ -79,6 +79,44 @@ TEST(NetworkRounds, TellWhereTheyWereNotEnough) {
   EXPECT_GT(stats.left_out, 0.05F);
 }
 
+// Conjugate gradients take no more rounds to the same light but where two do, and tell no less than they leave out: no error of
+// one particle makes up for that of another.
+TEST(NetworkRounds, OfGradientsEndWhereNoMoreIsLeftOutThanTheyTell) {
+  const float asked = standard_tolerance();
+  double most = 0;
+  for (const double albedo : {0.3, 0.9, 0.99, 1.0}) {
+    for (const double depth : {0.5, 2.0, 20.0, 60.0}) {
+      for (const std::size_t light : {0U, 1U}) {
+        std::vector<LightSource> lights{network_lights()[light]};
+        if (light == 0) lights[0].position = {-0.4, 0, 0.1};
+        NetworkParts parts{.particles = 200, .lines = 16, .window = 5, .tolerance = asked, .iterations = 1000};
+        const RanNetwork plain(cloud(depth, albedo), lights, parts);
+        parts.gradients = true;
+        const RanNetwork ended(cloud(depth, albedo), lights, parts);
+        parts.tolerance = 1e-6F;
+        const RanNetwork all(cloud(depth, albedo), lights, parts);
+        double off = 0;
+        for (std::size_t k = 0; k < all.sources.size(); ++k) {
+          off += std::fabs(static_cast<double>(all.sources[k]) - static_cast<double>(ended.sources[k]));
+          EXPECT_GE(ended.sources[k], ended.first[k]);
+        }
+        off /= sum(all.sources);
+        const StepStats& stats = ended.stats.steps[2];
+        const auto told = static_cast<double>(stats.left_out);
+        EXPECT_TRUE(stats.converged);
+        EXPECT_LE(told, static_cast<double>(asked));
+        EXPECT_LE(off, (1 + tolerance("network_left_out")) * told) << "albedo " << albedo << ", depth " << depth;
+        EXPECT_LE(ended.residuals[0], std::max(plain.residuals[0], 2.0F));
+        most = std::max(most, off / told);
+        std::printf("albedo %.2f, depth %4.1f, %s: %2g rounds, plain %3g, %.2e off, told %.2e\n", albedo, depth,
+                    light == 0 ? "lamp" : "sun ", static_cast<double>(ended.residuals[0]),
+                    static_cast<double>(plain.residuals[0]), off, told);
+      }
+    }
+  }
+  std::printf("asked for %g: at most %.3f of what is told are left out\n", static_cast<double>(asked), most);
+}
+
 // A history by itself: rounds of a geometric series, and what cannot be told yet.
 TEST(NetworkRounds, TheRestOfAGeometricSeries) {
   std::vector<float> history;
