@@ -30,6 +30,9 @@ Knob environment_shadows_knob();
 Knob environment_rays_knob();
 // `environment_indirect`: off | on | published, of what of an environment the medium scatters onto surfaces.
 Knob environment_indirect_knob();
+// `environment_depth`: auto | pixel | lattice | object, and `environment_cells`, of the mean depths that attenuate it.
+Knob environment_depth_knob();
+Knob environment_cells_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
@@ -95,6 +98,7 @@ class FramePlan {
   bool rest_scatters() const;
   std::optional<std::string_view> lacks_environment_indirect() const;
   Image add_environment_indirect(Image scattered);
+  Image mean_depth();
   Image add_environment();
   void expect_environment_shadows();
   void add_environment_shadows();
@@ -111,6 +115,7 @@ class FramePlan {
   Image corners_, hidden_diffuse_, hidden_specular_;  // absent where surfaces hide nothing of an environment
   bool environment_in_fog_alone_ = false;
   Image depth_toward_light_;  // as LightMarch makes it, where what it stands for scatters onto surfaces; else absent
+  Image mean_depth_;          // made once, for all that ask
   Image airlight_;            // with what the medium scatters of an environment; absent where that is nothing
 };
 

@@ -174,17 +174,18 @@ Image FramePlan::add_environment() {
     return environment_table(environment, shininess, all);
   }));
   add_environment_shadows();
+  const Image depth = mean_depth();
   const Image environment = image("surface.environment", Format::rgb32f);
   plan.steps.push_back({EnvironmentLight{.distance = distance,
                                          .normal = normal,
                                          .material = material,
                                          .transmittance = transmittance,
+                                         .mean_depth = depth,
                                          .tables = tables,
                                          .hidden_diffuse = hidden_diffuse_,
                                          .hidden_specular = hidden_specular_,
                                          .materials = materials,
                                          .brdf = brdfs.all.empty() ? std::vector<int>{} : brdfs.of_surface,
-                                         .gaussians = has_surfaces() ? gaussians_of(scene) : std::vector<GaussianDensity>{},
                                          .view = view,
                                          .environment = environment},
                         "the environment, seen and on the surfaces"});
