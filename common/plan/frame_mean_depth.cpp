@@ -41,7 +41,7 @@ Image FramePlan::mean_depth() {
     return SurfaceLattices{};
   };
   const auto lattices = [&] {
-    double radius = 1e300;
+    double radius = 1e30;  // of faint ones may be more than a float holds
     for (const GaussianDensity& g : gaussians) radius = std::min(radius, smooth_radius(g));
     const double pixels = static_cast<double>(request.extent.width) * request.extent.height;
     const double most = choice == "auto" ? std::min(pixels / pixels_a_node, most_nodes) : most_nodes;
