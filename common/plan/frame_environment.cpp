@@ -24,7 +24,7 @@ Knob environment_knob() {
 Knob environment_shadows_knob() {
   return choice_knob(
       "environment_shadows", {"on", "off"},
-      "what casters hide of an environment from surfaces: found once for their geometry, kept beside the mesh by the program");
+      "what casters hide of an environment from surfaces: found once for their geometry, kept in a file by the program");
 }
 
 Knob environment_rays_knob() {
