@@ -153,11 +153,13 @@ void table_one() {
   const auto row = [](int gaussians, int lights, unsigned side, int paper) {
     Scene scene = steam(gaussians, lights, side);
     if (lights == 0) scene.environment = sky(), scene.surfaces[0].casts_shadow = true;
+    Renderer renderer({.backend = "cpu"});  // one, for what surfaces hide takes seconds to find
     for (const char* resolution : {"full", "half", "quarter"}) {
       RenderSettings settings = settings_of(full, "auto", "4");
       settings.knobs.emplace_back("airlight_resolution", resolution);
       fmt::print("{:10} {:7} {:9} {:8} {:>12} {:16.1f} {:16.1f}\n", gaussians, lights, side * side, paper, resolution,
-                 1e3 / frame_times(scene, settings, false, 5).frame, 1e3 / frame_times(scene, settings, true, 5).frame);
+                 1e3 / frame_times(renderer, scene, settings, false, 5).frame,
+                 1e3 / frame_times(renderer, scene, settings, true, 5).frame);
     }
   };
   row(34, 3, 279, 101);
@@ -165,6 +167,20 @@ void table_one() {
   row(292, 0, 255, 92);
   row(353, 0, 278, 162);
   row(1223, 0, 211, 31);
+}
+
+// Of the steps of a frame of a camera that has moved: those that take most.
+void dearest_steps(Renderer& renderer, Scene scene, const RenderSettings& settings) {
+  scene.camera.position.x += 0.01;
+  std::vector<StepStats> steps = renderer.render(scene, settings).stats.steps;
+  std::erase_if(steps, [](const StepStats& s) { return s.reused; });
+  std::sort(steps.begin(), steps.end(), [](const StepStats& a, const StepStats& b) { return a.seconds > b.seconds; });
+  double all = 0;
+  for (const StepStats& s : steps) all += s.seconds;
+  std::string told;
+  for (std::size_t i = 0; i < std::min<std::size_t>(steps.size(), 6); ++i)
+    told += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", steps[i].name, 100 * steps[i].seconds / all);
+  fmt::print("{:>10} thread time by default: {}\n", "", told);
 }
 
 // The rows under an environment, by where mean depths are found; all ways of a row in turns, and what surfaces send beside that
@@ -213,6 +229,7 @@ void environment_depths() {
                  way.camera.frame / ways[0].camera.frame, way.all.frame / ways[0].all.frame, 100 * relative_rmse(image, truth),
                  100 * static_cast<double>(most / *std::max_element(truth.values.begin(), truth.values.end())));
     }
+    dearest_steps(renderer, scene, settings_of(full, "auto", "4"));
   }
 }
 
