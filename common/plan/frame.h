@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/algorithms/environment_airlight.h"
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/brdf.h"
@@ -82,6 +83,9 @@ class FramePlan {
   // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is
   // added then. Before the step that makes `airlight`.
   void scatter_environment_in_fog_alone();
+  // The step that adds the environment's airlight to `airlight`, for a technique that places it itself; else finish() does.
+  // Absent where there is none. `airlight` is what it makes then.
+  std::optional<EnvironmentAirlight> take_environment_airlight();
   // The step with all that those along the view ray have in common filled in.
   template <class Step>
   Step along_view_ray() const;
@@ -104,7 +108,6 @@ class FramePlan {
   void add_environment_shadows();
   Buffer add_brdfs();
   void expect_environment_airlight();
-  void add_environment_airlight();
   Image add_lit(Buffer volumes, std::uint32_t id);
   bool wanted(std::string_view name) const;
 
