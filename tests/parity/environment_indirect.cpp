@@ -72,9 +72,8 @@ Case published(Extent e) { return scattered(e, test_materials(), true, glm::vec3
 }  // namespace
 
 std::span<const NamedCase> environment_indirect_cases() {
-  static constexpr NamedCase cases[] = {{"environment_indirect/fog", fog},
-                                        {"environment_indirect/in_fog", both},
-                                        {"environment_indirect/published", published}};
+  static constexpr NamedCase cases[] = {
+      {"environment_indirect/fog", fog}, {"environment_indirect/in_fog", both}, {"environment_indirect/published", published}};
   return cases;
 }
 
