@@ -38,8 +38,8 @@ struct RendererOptions {
   int threads = 0;                  // 0: as many as the machine has
   std::string gl_context = "auto";  // auto | osmesa | egl; gl only. auto: EGL on hardware where there is some, else OSMesa
   int gl_device = 0;                // which EGL device
-  // Files beside meshes (MESH.DIGITS.transfer) that keep what surfaces hide of an environment are read, and written where they
-  // can be.
+  // Files that keep what surfaces hide of an environment are read, and written where they can be: DIGITS.transfer in
+  // $XDG_CACHE_HOME/airlight, ~/.cache/airlight unless that is set.
   bool transfer_files = false;
   // [byte] that images may take that nobody asked for. While the camera stands still those of all steps are kept, so that an edit
   // runs what depends on it alone; 0: none.

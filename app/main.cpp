@@ -167,8 +167,9 @@ void add_device_flags(CLI::App& command, Flags& f) {
                      "Unless said 4G, and more where 64 rows take more");
   r.renderer.transfer_files = true;
   command
-      .add_flag("--transfer-files,!--no-transfer-files", r.renderer.transfer_files,
-                "keep what surfaces hide of an environment in files beside the meshes, and read them")
+      .add_flag(
+          "--transfer-files,!--no-transfer-files", r.renderer.transfer_files,
+          "keep what surfaces hide of an environment in files of $XDG_CACHE_HOME/airlight (~/.cache/airlight), and read them")
       ->default_str("true");
 }
 

@@ -84,9 +84,7 @@ RenderSettings settings_of(Extent extent, const char* light_path, const char* sa
 }
 
 // Of a camera that moves, and of lights and Gaussians that do.
-Times frame_times(const Scene& loaded, const RenderSettings& settings, bool all_moves, int frames,
-                  const std::string& backend = "cpu") {
-  Renderer renderer({.backend = backend});
+Times frame_times(Renderer& renderer, const Scene& loaded, const RenderSettings& settings, bool all_moves, int frames) {
   std::vector<double> frame, volumes, airlight;
   for (int i = -1; i < frames; ++i) {
     Scene scene = loaded;
@@ -112,6 +110,11 @@ Times frame_times(const Scene& loaded, const RenderSettings& settings, bool all_
   return {median(frame), median(volumes), median(airlight)};
 }
 
+Times frame_times(const Scene& scene, const RenderSettings& settings, bool all_moves, int frames) {
+  Renderer renderer({.backend = "cpu"});
+  return frame_times(renderer, scene, settings, all_moves, frames);
+}
+
 double relative_rmse(const HostImage& image, const HostImage& truth) {
   double error = 0, power = 0;
   for (std::size_t i = 0; i < truth.values.size(); ++i) {
@@ -121,10 +124,10 @@ double relative_rmse(const HostImage& image, const HostImage& truth) {
   return std::sqrt(error / power);
 }
 
-HostImage airlight_of(const Scene& scene, RenderSettings settings) {
-  settings.images = {"airlight"};
+HostImage image_of(const Scene& scene, RenderSettings settings, const char* name) {
+  settings.images = {name};
   Renderer renderer({.backend = "cpu", .keep = 0});
-  return renderer.render(scene, settings).image("airlight");
+  return renderer.render(scene, settings).image(name);
 }
 
 // Brighter above, and around the sun.
@@ -150,11 +153,13 @@ void table_one() {
   const auto row = [](int gaussians, int lights, unsigned side, int paper) {
     Scene scene = steam(gaussians, lights, side);
     if (lights == 0) scene.environment = sky(), scene.surfaces[0].casts_shadow = true;
+    Renderer renderer({.backend = "cpu"});  // one, for what surfaces hide takes seconds to find
     for (const char* resolution : {"full", "half", "quarter"}) {
       RenderSettings settings = settings_of(full, "auto", "4");
       settings.knobs.emplace_back("airlight_resolution", resolution);
       fmt::print("{:10} {:7} {:9} {:8} {:>12} {:16.1f} {:16.1f}\n", gaussians, lights, side * side, paper, resolution,
-                 1e3 / frame_times(scene, settings, false, 5).frame, 1e3 / frame_times(scene, settings, true, 5).frame);
+                 1e3 / frame_times(renderer, scene, settings, false, 5).frame,
+                 1e3 / frame_times(renderer, scene, settings, true, 5).frame);
     }
   };
   row(34, 3, 279, 101);
@@ -162,6 +167,70 @@ void table_one() {
   row(292, 0, 255, 92);
   row(353, 0, 278, 162);
   row(1223, 0, 211, 31);
+}
+
+// Of the steps of a frame of a camera that has moved: those that take most.
+void dearest_steps(Renderer& renderer, Scene scene, const RenderSettings& settings) {
+  scene.camera.position.x += 0.01;
+  std::vector<StepStats> steps = renderer.render(scene, settings).stats.steps;
+  std::erase_if(steps, [](const StepStats& s) { return s.reused; });
+  std::sort(steps.begin(), steps.end(), [](const StepStats& a, const StepStats& b) { return a.seconds > b.seconds; });
+  double all = 0;
+  for (const StepStats& s : steps) all += s.seconds;
+  std::string told;
+  for (std::size_t i = 0; i < std::min<std::size_t>(steps.size(), 6); ++i)
+    told += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", steps[i].name, 100 * steps[i].seconds / all);
+  fmt::print("{:>10} thread time by default: {}\n", "", told);
+}
+
+// The rows under an environment, by where mean depths are found; all ways of a row in turns, and what surfaces send beside that
+// with a depth a pixel.
+void environment_depths() {
+  fmt::print(
+      "\nMean depths under an environment, 800 x 600, by environment_depth and environment_cells: least frame ms of three in "
+      "turns,\nof a camera that moves and of Gaussians that do, beside a depth a pixel; relative RMSE of what surfaces send to "
+      "that "
+      "in percent\n");
+  fmt::print("{:>10} {:>12} {:>10} {:>10} {:>8} {:>10} {:>8} {:>10}\n", "Gaussians", "depth", "only cam.", "all moves", "ratio",
+             "ratio", "RMSE", "largest");
+  struct Way {
+    const char *depth, *cells;
+    Times camera{1e300}, all{1e300};
+  };
+  for (const auto& [gaussians, side] : {std::pair(292, 255U), std::pair(353, 278U), std::pair(1223, 211U)}) {
+    Scene scene = steam(gaussians, 0, side);
+    scene.environment = sky(), scene.surfaces[0].casts_shadow = true;
+    const auto with = [&](const Way& way, Extent extent) {
+      RenderSettings settings = settings_of(extent, "auto", "4");
+      settings.knobs.emplace_back("environment_depth", way.depth);
+      settings.knobs.emplace_back("environment_cells", way.cells);
+      return settings;
+    };
+    std::vector<Way> ways{{"pixel", "3"},   {"lattice", "1"}, {"lattice", "2"},
+                          {"lattice", "3"}, {"lattice", "4"}, {"object", "3"}};
+    Renderer renderer({.backend = "cpu"});  // one, for what surfaces hide takes seconds to find
+    for (int turn = 0; turn < 3; ++turn) {
+      for (Way& way : ways) {
+        way.camera.frame = std::min(way.camera.frame, frame_times(renderer, scene, with(way, full), false, 2).frame);
+        way.all.frame = std::min(way.all.frame, frame_times(renderer, scene, with(way, full), true, 2).frame);
+      }
+    }
+    HostImage truth;
+    for (const Way& way : ways) {
+      RenderSettings settings = with(way, quarter);
+      settings.images = {"surface"};
+      const Frame frame = renderer.render(scene, settings);
+      const HostImage& image = frame.image("surface");
+      if (truth.values.empty()) truth = image;
+      float most = 0;
+      for (std::size_t i = 0; i < truth.values.size(); ++i) most = std::max(most, std::fabs(image.values[i] - truth.values[i]));
+      fmt::print("{:10} {:>10} {:1} {:10.1f} {:10.1f} {:8.2f} {:8.2f} {:10.3f} {:10.3f}\n", gaussians, way.depth,
+                 way.depth == std::string_view("lattice") ? way.cells : "", way.camera.frame, way.all.frame,
+                 way.camera.frame / ways[0].camera.frame, way.all.frame / ways[0].all.frame, 100 * relative_rmse(image, truth),
+                 100 * static_cast<double>(most / *std::max_element(truth.values.begin(), truth.values.end())));
+    }
+    dearest_steps(renderer, scene, settings_of(full, "auto", "4"));
+  }
 }
 
 // The least of repetitions.
@@ -224,14 +293,15 @@ void light_paths() {
   for (const int n : {4, 10, 30, 100, 300, 1000, 3000, 10000}) {
     const Scene scene = steam(n, 1, 40);
     const Extent small{40, 30};
-    const HostImage truth = airlight_of(scene, settings_of(small, "exact", "12"));
+    const HostImage truth = image_of(scene, settings_of(small, "exact", "12"), "airlight");
     for (const char* path : {"exact", "volume", "published"}) {
       if (n > 3000 && std::string_view(path) == "exact") continue;
       const RenderSettings settings = settings_of(quarter, path, "4");
       const Times all = frame_times(scene, settings, true, 3), camera = frame_times(scene, settings, false, 3);
       fmt::print("{:10} {:>8} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:10.3f} {:10.3f}\n", n, path, all.frame, camera.frame,
-                 all.volumes, all.airlight, 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "4")), truth),
-                 100 * relative_rmse(airlight_of(scene, settings_of(small, path, "12")), truth));
+                 all.volumes, all.airlight,
+                 100 * relative_rmse(image_of(scene, settings_of(small, path, "4"), "airlight"), truth),
+                 100 * relative_rmse(image_of(scene, settings_of(small, path, "12"), "airlight"), truth));
     }
   }
 }
@@ -269,10 +339,15 @@ void skips() {
 
 }  // namespace airlight
 
-int main() {
-  airlight::table_one();
-  airlight::light_paths();
-  airlight::skips();
-  airlight::center_depths();
+// Names of tables make these alone.
+int main(int count, char** names) {
+  const std::pair<std::string_view, void (*)()> tables[] = {{"table-one", airlight::table_one},
+                                                            {"environment-depths", airlight::environment_depths},
+                                                            {"light-paths", airlight::light_paths},
+                                                            {"skips", airlight::skips},
+                                                            {"center-depths", airlight::center_depths}};
+  for (const auto& [name, make] : tables) {
+    if (count == 1 || std::find(names + 1, names + count, name) != names + count) make();
+  }
   return 0;
 }

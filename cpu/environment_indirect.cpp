@@ -13,7 +13,6 @@
 #include "cpu/lane_surface.h"
 //
 #include "cpu/environment_lobes.h"
-#include "cpu/mean_depth.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -28,7 +27,7 @@ static void environment_indirect(const EnvironmentIndirect& a, const TileView& v
     if (any_lane(hit)) {
       const LaneMaterial& m = surface.material;
       const LaneLobes lobes(tables, shininess, surface);
-      const Real depth = mean_depth(a.gaussians, surface.place);
+      const Real depth = a.mean_depth ? load(view.plane(a.mean_depth) + i) : Real(0.0);
       Real of_homogeneous, of_rest;
       environment_scattered_to_surface(depth, of_homogeneous, of_rest);
       if (a.scattering == EnvironmentScattering::published) {

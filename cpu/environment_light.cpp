@@ -14,7 +14,6 @@
 #include "cpu/lane_surface.h"
 //
 #include "cpu/environment_lobes.h"
-#include "cpu/mean_depth.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -43,7 +42,7 @@ static void environment_light(const EnvironmentLight& a, const TileView& view, s
       };
       lessen(a.hidden_diffuse, lobes.diffuse);
       lessen(a.hidden_specular, lobes.specular);
-      const Real attenuation = transmittance(mean_depth(a.gaussians, surface.place));
+      const Real attenuation = a.mean_depth ? transmittance(load(view.plane(a.mean_depth) + i)) : Real(1.0);
       Real reflected[3];
       for (int c = 0; c < 3; ++c) reflected[c] = fma(m.diffuse[c], lobes.diffuse[c], m.specular[c] * lobes.specular[c]);
       for (std::size_t b = 0; b < brdfs; ++b) {

@@ -15,6 +15,7 @@ namespace airlight {
 
 void run_tile(const ViewTransmittance&, const TileView&, Simd);
 void run_tile(const SurfaceAirlight&, const TileView&, Simd);
+void run_tile(const MeanDepth&, const TileView&, Simd);
 void run_tile(const EnvironmentLight&, const TileView&, Simd);
 void run_tile(const SurfaceShading&, const TileView&, Simd);
 void run_tile(const HomogeneousAirlight&, const TileView&, Simd);
@@ -31,6 +32,7 @@ void run_tile(const HiddenEnvironment&, const TileView&, Simd);
 void run_tile(const EnvironmentIndirect&, const TileView&, Simd);
 void run_tile(const Compose&, const TileView&, Simd);
 // Those that make buffers.
+void run_volume(const MeanDepthLattice&, const BufferView&, Workers&, Simd);
 void run_volume(const DensityInjection&, const BufferView&, Workers&, Simd);
 void run_volume(const OpticalDepthPropagation&, const BufferView&, Workers&, Simd);
 void run_volume(const VisibilityNetwork&, const BufferView&, Workers&, Simd);

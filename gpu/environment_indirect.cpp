@@ -3,20 +3,19 @@
 
 #include "common/algorithms/environment_light.h"
 #include "common/plan/surface_airlight_tables.h"
-#include "gpu/mean_depth.h"
 #include "gpu/step_runner.h"
 
 namespace airlight {
 
 void run(const EnvironmentIndirect& a, StepRunner& r, const Progress& progress) {
   Program& program =
-      r.compute("gpu/environment_indirect.glsl",
-                {a.scattering == EnvironmentScattering::published ? "PUBLISHED" : "", a.scattered ? "WITH_MORE" : ""});
-  r.read(0, a.distance);
+      r.compute("gpu/environment_indirect.glsl", {a.scattering == EnvironmentScattering::published ? "PUBLISHED" : "",
+                                                  a.scattered ? "WITH_MORE" : "", a.mean_depth ? "WITH_MEDIUM" : ""});
   r.read(1, a.normal);
   r.read(2, a.material);
   r.read(3, a.transmittance);
   if (a.scattered) r.read(4, a.scattered);
+  if (a.mean_depth) r.read(5, a.mean_depth);
   r.write(0, a.indirect);
   r.storage(tables_binding, a.tables);
   // Two vectors a material: diffuse; specular and where its lobe's table begins.
@@ -28,12 +27,10 @@ void run(const EnvironmentIndirect& a, StepRunner& r, const Progress& progress) 
     materials.emplace_back(m.specular, static_cast<float>((static_cast<std::size_t>(k) + 1) * environment_lobe_floats));
   }
   r.storage(0, std::as_bytes(std::span(materials)));
-  bind_mean_depth(r, a.gaussians);
   r.view(a.view);
   struct {
-    glm::vec4 albedo_gaussians, gaussian_albedo_share;
-  } const knobs{{a.albedo, static_cast<float>(a.gaussians.size())},
-                {a.gaussian_albedo, static_cast<float>(environment_share_floats)}};
+    glm::vec4 albedo, gaussian_albedo_share;
+  } const knobs{{a.albedo, 0}, {a.gaussian_albedo, static_cast<float>(environment_share_floats)}};
   r.block(knobs_binding, knobs);
   r.each_pixel(program, a.indirect.extent, progress);
 }

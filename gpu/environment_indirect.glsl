@@ -1,19 +1,20 @@
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
-#include "gpu/mean_depth.glsl"
 #include "gpu/environment_lobes.glsl"
 
-layout(binding = 0) uniform sampler2DArray distance_image;
 layout(binding = 1) uniform sampler2DArray normal_image;
 layout(binding = 2) uniform sampler2DArray material_image;
 layout(binding = 3) uniform sampler2DArray transmittance_image;
 #ifdef WITH_MORE
 layout(binding = 4) uniform sampler2DArray scattered_image;
 #endif
+#ifdef WITH_MEDIUM
+layout(binding = 5) uniform sampler2DArray mean_depth_image;
+#endif
 layout(binding = 0, rgba32f) uniform writeonly image2DArray indirect_image;
 
 layout(std140, binding = 2) uniform Knobs {
-  vec4 albedo_gaussians;
+  vec4 albedo;
   vec4 gaussian_albedo_share;  // floats of a share
 };
 
@@ -35,7 +36,10 @@ void main() {
     if (specular_table.xyz != vec3(0.0)) {
       sum += specular_table.xyz * environment_mirrored(int(specular_table.w), int(gaussian_albedo_share.w), n, d);
     }
-    float depth = mean_depth(int(albedo_gaussians.w), d * texelFetch(distance_image, at, 0).x);
+    float depth = 0.0;
+#ifdef WITH_MEDIUM
+    depth = texelFetch(mean_depth_image, at, 0).x;
+#endif
     float of_homogeneous;
     float of_rest;
 #ifdef PUBLISHED
@@ -44,7 +48,7 @@ void main() {
 #else
     environment_scattered_to_surface(depth, of_homogeneous, of_rest);
 #endif
-    sum *= fma(vec3(of_homogeneous), albedo_gaussians.xyz, of_rest * gaussian_albedo_share.xyz) * texelFetch(transmittance_image, at, 0).x;
+    sum *= fma(vec3(of_homogeneous), albedo.xyz, of_rest * gaussian_albedo_share.xyz) * texelFetch(transmittance_image, at, 0).x;
   }
 #ifdef WITH_MORE
   sum += texelFetch(scattered_image, at, 0).xyz;

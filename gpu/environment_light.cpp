@@ -2,7 +2,6 @@
 #include <glm/vec4.hpp>
 
 #include "common/plan/surface_airlight_tables.h"
-#include "gpu/mean_depth.h"
 #include "gpu/step_runner.h"
 
 namespace airlight {
@@ -10,13 +9,13 @@ namespace airlight {
 void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
   Program& program = r.compute("gpu/environment_light.glsl",
                                {a.hidden_diffuse ? "WITH_HIDDEN_DIFFUSE" : "", a.hidden_specular ? "WITH_HIDDEN_SPECULAR" : "",
-                                a.brdf.empty() ? "" : "WITH_BRDFS"});
-  r.read(0, a.distance);
+                                a.mean_depth ? "WITH_MEDIUM" : "", a.brdf.empty() ? "" : "WITH_BRDFS"});
   r.read(1, a.normal);
   r.read(2, a.material);
   r.read(3, a.transmittance);
   if (a.hidden_diffuse) r.read(4, a.hidden_diffuse);
   if (a.hidden_specular) r.read(5, a.hidden_specular);
+  if (a.mean_depth) r.read(6, a.mean_depth);
   r.write(0, a.environment);
   r.storage(tables_binding, a.tables);
   // Two vectors a material: diffuse; specular and where its lobe's table begins.
@@ -38,11 +37,10 @@ void run(const EnvironmentLight& a, StepRunner& r, const Progress& progress) {
     }
     r.storage(2, std::as_bytes(std::span(lobes)));
   }
-  bind_mean_depth(r, a.gaussians);
   r.view(a.view);
-  const glm::ivec4 knobs(static_cast<int>(a.gaussians.size()), static_cast<int>(environment_image_at(shininess.size(), brdfs)),
-                         static_cast<int>(environment_share_floats),
-                         static_cast<int>(environment_harmonics_at(shininess.size())));
+  const glm::ivec4 knobs(static_cast<int>(environment_image_at(shininess.size(), brdfs)),
+                         static_cast<int>(environment_share_floats), static_cast<int>(environment_harmonics_at(shininess.size())),
+                         0);
   r.block(knobs_binding, knobs);
   r.each_pixel(program, a.environment.extent, progress);
 }

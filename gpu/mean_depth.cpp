@@ -1,25 +1,32 @@
-#include "gpu/mean_depth.h"
+#include <glm/vec3.hpp>
+#include <vector>
 
-#include <glm/vec4.hpp>
-
-#include "common/error.h"
-#include "gpu/medium.h"
+#include "gpu/gaussian_mean_depth.h"
 
 namespace airlight {
 
-void bind_mean_depth(StepRunner& r, const std::vector<GaussianDensity>& all) {
-  // Sums over harmonics go round less than a thousand times.
-  if (all.size() > static_cast<std::size_t>(LoopBudget::most) - 1000) {
-    throw MachineError("OpenGL: the light of an environment through " + std::to_string(all.size()) +
-                       " Gaussians is more loops than a shader may run");
+void run(const MeanDepth& a, StepRunner& r, const Progress& progress) {
+  Program& program = r.compute("gpu/mean_depth.glsl", {a.lattices.empty() ? "" : "WITH_LATTICES"});
+  r.read(0, a.distance);
+  r.read(1, a.material);
+  r.write(0, a.mean_depth);
+  r.view(a.view);
+  if (a.lattices.empty()) {
+    bind_mean_depth(r, a.gaussians);
+    program.set("gaussian_count", static_cast<int>(a.gaussians.size()));
+  } else {
+    struct Lattice {  // as gpu/mean_depth.glsl reads it
+      glm::vec3 corner;
+      float scale;
+      glm::ivec3 nodes;
+      std::int32_t first;
+    };
+    std::vector<Lattice> lattices;
+    for (const DepthLattice& l : a.lattices) lattices.push_back({l.corner, 1 / l.spacing, l.nodes, l.first});
+    r.storage(0, std::as_bytes(std::span(lattices)));
+    r.storage(tables_binding, a.depths);
   }
-  std::vector<glm::vec4> gaussians;
-  for (const GaussianDensity& g : all) {
-    gaussians.emplace_back(g.center, 1 / g.radius);
-    gaussians.emplace_back(g.extinction * g.radius, 0, 0, 0);
-  }
-  if (gaussians.empty()) gaussians.emplace_back(0);
-  r.storage(1, std::as_bytes(std::span(gaussians)));
+  r.each_pixel(program, a.mean_depth.extent, progress);
 }
 
 }  // namespace airlight

@@ -108,6 +108,8 @@ void run(const SurfaceVisibility&, StepRunner&, const Progress&);
 void run(const ShadowPlanes&, StepRunner&, const Progress&);
 void run(const ViewTransmittance&, StepRunner&, const Progress&);
 void run(const SurfaceAirlight&, StepRunner&, const Progress&);
+void run(const MeanDepthLattice&, StepRunner&, const Progress&);
+void run(const MeanDepth&, StepRunner&, const Progress&);
 void run(const EnvironmentLight&, StepRunner&, const Progress&);
 void run(const SurfaceShading&, StepRunner&, const Progress&);
 void run(const HomogeneousAirlight&, StepRunner&, const Progress&);

@@ -16,6 +16,8 @@
 #include "common/algorithms/hidden_environment.h"
 #include "common/algorithms/homogeneous_airlight.h"
 #include "common/algorithms/light_march.h"
+#include "common/algorithms/mean_depth.h"
+#include "common/algorithms/mean_depth_lattice.h"
 #include "common/algorithms/network_iteration.h"
 #include "common/algorithms/optical_depth_propagation.h"
 #include "common/algorithms/particle_light.h"
@@ -33,11 +35,11 @@
 
 namespace airlight {
 
-using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, EnvironmentLight,
-                               SurfaceShading, HomogeneousAirlight, DensityInjection, OpticalDepthPropagation, VisibilityNetwork,
-                               ParticleLight, NetworkIteration, SourceFunction, RayMarch, ParticleSplats, GaussianAirlight,
-                               ProjectedGaussians, LightMarch, Subsample, DepthAwareUpsample, FillAirlight, EnvironmentAirlight,
-                               EnvironmentIndirect, HiddenEnvironment, Compose>;
+using Algorithm = std::variant<SurfaceVisibility, ShadowPlanes, ViewTransmittance, SurfaceAirlight, MeanDepthLattice, MeanDepth,
+                               EnvironmentLight, SurfaceShading, HomogeneousAirlight, DensityInjection, OpticalDepthPropagation,
+                               VisibilityNetwork, ParticleLight, NetworkIteration, SourceFunction, RayMarch, ParticleSplats,
+                               GaussianAirlight, ProjectedGaussians, LightMarch, Subsample, DepthAwareUpsample, FillAirlight,
+                               EnvironmentAirlight, EnvironmentIndirect, HiddenEnvironment, Compose>;
 
 struct Step {
   Algorithm what;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "common/algorithms/field.h"
-#include "common/algorithms/medium.h"
 #include "common/algorithms/view.h"
 
 namespace airlight {
@@ -26,15 +25,14 @@ constexpr std::size_t environment_image_at(std::size_t shininess, std::size_t br
 
 // Light of an environment as it reaches the camera: seen where no surface is hit, and reflected by surfaces. These take it from
 // spherical harmonics of order 6 (Zhou et al. 2007, 4.2, eq. 26-27 without what is scattered on the way): attenuated by the mean
-// optical depth of the Gaussians over all directions, in front of nothing but the surface's own horizon and what is told as
-// hidden.
+// optical depth over all directions, in front of nothing but the surface's own horizon and what is told as hidden.
 struct EnvironmentLight {
   Image distance, normal, material, transmittance;  // as in SurfaceShading
+  Image mean_depth;                                 // as MeanDepth makes it; absent: 0
   Buffer tables;                                    // common/plan/environment.h makes them
   Image hidden_diffuse, hidden_specular;            // as HiddenEnvironment makes them; optional
   std::vector<Material> materials;
   std::vector<int> brdf;  // number of each material's tabulated reflectance, which stands for it, or -1; empty: none has one
-  std::vector<GaussianDensity> gaussians;  // whatever their reach
   View view;
 
   Image environment;  // rgb32f [W/m^2/sr]
@@ -47,12 +45,12 @@ struct EnvironmentLight {
     v(in("normal"), s.normal);
     v(in("material"), s.material);
     v(in("transmittance"), s.transmittance);
+    v(in("mean_depth"), s.mean_depth);
     v(in("tables"), s.tables);
     v(in("hidden_diffuse", "W/m^2/sr"), s.hidden_diffuse);
     v(in("hidden_specular", "W/m^2/sr"), s.hidden_specular);
     v(knob("materials"), s.materials);
     v(knob("brdf"), s.brdf);
-    v(knob("gaussians"), s.gaussians);
     v(knob("view"), s.view);
     v(out("environment", "W/m^2/sr"), s.environment);
   }

@@ -35,6 +35,16 @@ struct RayNoise {
   glm::vec3 offset{0, 0, 0};  // [cells] where in it the camera stands
 };
 
+// Nodes of a lattice of mean depths: where the first stands, and where in a buffer of them it is, x fastest.
+struct DepthLattice {
+  glm::vec3 corner{0, 0, 0};  // [m]
+  float spacing = 1;          // [m] > 0
+  glm::ivec3 nodes{1, 1, 1};  // an axis, each > 1; or one in all, which counts everywhere
+  int first = 0;
+};
+// Floats after all nodes that a lookup may read, without weight.
+constexpr int depth_lattice_padding = 4;
+
 // By which error function the optical depths of Gaussians are taken: erf_, or the polynomial that Zhou et al. 2007 print. The
 // numbers are those of gaussian_erf() in common/formulas/gaussian.h.
 enum class Erf : int { accurate = 0, fast = 1 };

@@ -287,7 +287,8 @@ void FramePlan::shade(Image light_transmittance) {
 }
 
 Plan FramePlan::finish() {
-  add_environment_airlight();
+  if (const auto scattered = take_environment_airlight())
+    plan.steps.push_back({*scattered, "the environment's light, scattered once along the view ray"});
   plan.steps.push_back({Compose{.surface = surface_, .airlight = airlight, .beauty = beauty_}, "surface + airlight"});
   return std::move(plan);
 }

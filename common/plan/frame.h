@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/algorithms/environment_airlight.h"
 #include "common/algorithms/light_march.h"
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/brdf.h"
@@ -30,6 +31,9 @@ Knob environment_shadows_knob();
 Knob environment_rays_knob();
 // `environment_indirect`: off | on | published, of what of an environment the medium scatters onto surfaces.
 Knob environment_indirect_knob();
+// `environment_depth`: auto | pixel | lattice | object, and `environment_cells`, of the mean depths that attenuate it.
+Knob environment_depth_knob();
+Knob environment_cells_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
 
@@ -79,6 +83,9 @@ class FramePlan {
   // For a technique that scatters the environment's light in Gaussians and grids itself: of the homogeneous part alone it is
   // added then. Before the step that makes `airlight`.
   void scatter_environment_in_fog_alone();
+  // The step that adds the environment's airlight to `airlight`, for a technique that places it itself; else finish() does.
+  // Absent where there is none. `airlight` is what it makes then.
+  std::optional<EnvironmentAirlight> take_environment_airlight();
   // The step with all that those along the view ray have in common filled in.
   template <class Step>
   Step along_view_ray() const;
@@ -95,12 +102,12 @@ class FramePlan {
   bool rest_scatters() const;
   std::optional<std::string_view> lacks_environment_indirect() const;
   Image add_environment_indirect(Image scattered);
+  Image mean_depth();
   Image add_environment();
   void expect_environment_shadows();
   void add_environment_shadows();
   Buffer add_brdfs();
   void expect_environment_airlight();
-  void add_environment_airlight();
   Image add_lit(Buffer volumes, std::uint32_t id);
   bool wanted(std::string_view name) const;
 
@@ -111,6 +118,7 @@ class FramePlan {
   Image corners_, hidden_diffuse_, hidden_specular_;  // absent where surfaces hide nothing of an environment
   bool environment_in_fog_alone_ = false;
   Image depth_toward_light_;  // as LightMarch makes it, where what it stands for scatters onto surfaces; else absent
+  Image mean_depth_;          // made once, for all that ask
   Image airlight_;            // with what the medium scatters of an environment; absent where that is nothing
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 #include "common/plan/environment.h"
@@ -24,7 +25,7 @@ Knob environment_knob() {
 Knob environment_shadows_knob() {
   return choice_knob(
       "environment_shadows", {"on", "off"},
-      "what casters hide of an environment from surfaces: found once for their geometry, kept beside the mesh by the program");
+      "what casters hide of an environment from surfaces: found once for their geometry, kept in a file by the program");
 }
 
 Knob environment_rays_knob() {
@@ -63,9 +64,8 @@ void FramePlan::scatter_environment_in_fog_alone() {
       {Rule::environment_airlight, "environment_airlight", "no homogeneous medium, and what else scatters it is in the sources"});
 }
 
-// After the technique's own airlight.
-void FramePlan::add_environment_airlight() {
-  if (!airlight_) return;
+std::optional<EnvironmentAirlight> FramePlan::take_environment_airlight() {
+  if (!airlight_) return std::nullopt;
   const bool published = request.knobs.choice("environment_airlight") == "published";
   const Medium& medium = scene.medium;
   const Buffer tables{{environment_airlight_id}, 0};
@@ -77,20 +77,18 @@ void FramePlan::add_environment_airlight() {
   plan.uploads.push_back(table_upload(tables, key.value(), [environment = *scene.environment, published, phase = medium.phase] {
     return environment_airlight_table(environment, published ? npsf_coefficients() : phase_coefficients(phase));
   }));
-  plan.steps.push_back(
-      {EnvironmentAirlight{.distance = distance,
-                           .optical_depth = optical_depth,
-                           .scattered = airlight,
-                           .tables = tables,
-                           .view = view,
-                           .extinction = extinction,
-                           .sky_distance = sky_distance,
-                           .albedo = medium.albedo,
-                           .gaussian_albedo = environment_in_fog_alone_ ? glm::vec3(0) : rest_albedo(),
-                           .scattering = published ? EnvironmentScattering::published : EnvironmentScattering::depths,
-                           .airlight = airlight_},
-       "the environment's light, scattered once along the view ray"});
-  airlight = airlight_;
+  const Image before = std::exchange(airlight, std::exchange(airlight_, Image{}));
+  return EnvironmentAirlight{.distance = distance,
+                             .optical_depth = optical_depth,
+                             .scattered = before,
+                             .tables = tables,
+                             .view = view,
+                             .extinction = extinction,
+                             .sky_distance = sky_distance,
+                             .albedo = medium.albedo,
+                             .gaussian_albedo = environment_in_fog_alone_ ? glm::vec3(0) : rest_albedo(),
+                             .scattering = published ? EnvironmentScattering::published : EnvironmentScattering::depths,
+                             .airlight = airlight};
 }
 
 // Where surfaces hide anything, edges are cut and corners are wanted.
@@ -174,17 +172,18 @@ Image FramePlan::add_environment() {
     return environment_table(environment, shininess, all);
   }));
   add_environment_shadows();
+  const Image depth = mean_depth();
   const Image environment = image("surface.environment", Format::rgb32f);
   plan.steps.push_back({EnvironmentLight{.distance = distance,
                                          .normal = normal,
                                          .material = material,
                                          .transmittance = transmittance,
+                                         .mean_depth = depth,
                                          .tables = tables,
                                          .hidden_diffuse = hidden_diffuse_,
                                          .hidden_specular = hidden_specular_,
                                          .materials = materials,
                                          .brdf = brdfs.all.empty() ? std::vector<int>{} : brdfs.of_surface,
-                                         .gaussians = has_surfaces() ? gaussians_of(scene) : std::vector<GaussianDensity>{},
                                          .view = view,
                                          .environment = environment},
                         "the environment, seen and on the surfaces"});

@@ -16,7 +16,8 @@ enum : std::uint32_t {
   hidden_environment_id = 9,
   brdf_id = 10,
   environment_indirect_id = 11,
-  first_image_id = 12
+  mean_depths_id = 12,
+  first_image_id = 13
 };
 
 }  // namespace airlight

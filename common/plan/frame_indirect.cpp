@@ -73,6 +73,7 @@ Image FramePlan::add_environment_indirect(Image scattered) {
       table_upload(tables, key.value(), [environment = *scene.environment, shininess, published, phase = medium.phase] {
         return environment_indirect_table(environment, shininess, published ? npsf_coefficients() : phase_coefficients(phase));
       }));
+  const Image depth = mean_depth();
   const Image indirect = image("surface.indirect", Format::rgb32f);
   plan.steps.push_back(
       {EnvironmentIndirect{.distance = distance,
@@ -80,9 +81,9 @@ Image FramePlan::add_environment_indirect(Image scattered) {
                            .material = material,
                            .transmittance = transmittance,
                            .scattered = scattered,
+                           .mean_depth = depth,
                            .tables = tables,
                            .materials = materials,
-                           .gaussians = gaussians_of(scene),
                            .view = view,
                            .albedo = medium.extinction > 0 ? glm::vec3(medium.albedo) : glm::vec3(0),
                            .gaussian_albedo = rest_albedo(),

@@ -52,6 +52,7 @@ class Hash {
     add(d.kind), add(d.first), add(d.scale), add(d.nodes), add(d.halves);
     for (const glm::vec4& row : d.rows) add(row);
   }
+  void add(const DepthLattice& l) { add(l.corner), add(l.spacing), add(l.nodes.x), add(l.nodes.y), add(l.nodes.z), add(l.first); }
   template <class T>
   void add(const std::vector<T>& v) {
     add(v.size());

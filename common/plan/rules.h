@@ -24,6 +24,7 @@ enum class Rule {
   environment_airlight,
   environment_shadows,
   environment_indirect,
+  no_depth_lattice,
   empty_gaussians,
   out_of_view,
   no_noise,
@@ -38,7 +39,7 @@ enum class Rule {
 };
 
 // Each rule with its name; in the order of the enumeration.
-constexpr std::array<std::pair<Rule, std::string_view>, 26> rule_names{{
+constexpr std::array<std::pair<Rule, std::string_view>, 27> rule_names{{
     {Rule::unchanged, "unchanged"},                        // a step whose inputs are those of a frame before
     {Rule::dark_lights, "dark-lights"},                    // lights without power
     {Rule::lamps_out_of_reach, "lamps-out-of-reach"},      // lamps whose light fog swallows before the camera
@@ -54,6 +55,7 @@ constexpr std::array<std::pair<Rule, std::string_view>, 26> rule_names{{
     {Rule::environment_airlight, "environment-airlight"},  // what no medium scatters of an environment
     {Rule::environment_shadows, "environment-shadows"},    // what nothing hides of it
     {Rule::environment_indirect, "environment-indirect"},  // what nothing scatters of it onto surfaces
+    {Rule::no_depth_lattice, "no-depth-lattice"},          // mean depths on lattices, where those of pixels are faster
     {Rule::empty_gaussians, "empty-gaussians"},            // Gaussians without extinction
     {Rule::out_of_view, "out-of-view"},                    // Gaussians that no ray meets
     {Rule::no_noise, "no-noise"},                          // noise without Gaussians

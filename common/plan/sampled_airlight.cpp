@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "common/plan/gaussian_light_volumes.h"
+
 namespace airlight {
 
 namespace {
@@ -23,6 +25,10 @@ enum : std::uint32_t {
   rest_transmittance,
   depth_airlight,
   depth_transmittance,
+  part_depth,
+  part_environment,
+  rest_depth,
+  rest_environment,
   used_ids
 };
 static_assert(used_ids <= sampled_airlight_ids);
@@ -47,7 +53,8 @@ View subsampled(const View& whole, int stride) {
 bool is_worth_it(const RayMarch&) { return true; }
 bool is_worth_it(const GaussianAirlight& a) {
   const auto glows = [](const GaussianDensity& g) { return g.emission != glm::vec3(0); };
-  return std::any_of(a.gaussians.begin(), a.gaussians.end(), glows) || (!a.gaussians.empty() && !a.lights.empty());
+  return std::any_of(a.gaussians.begin(), a.gaussians.end(), glows) || (!a.gaussians.empty() && !a.lights.empty()) ||
+         a.gaussians.size() > few_gaussians;
 }
 
 // The same with nothing to sum but optical depth.
@@ -72,6 +79,17 @@ void sample(FramePlan& frame, const March whole, std::string_view why, int strid
   };
   std::vector<Step>& steps = frame.plan.steps;
   steps.pop_back();
+  // Told from a ray's depth, so that few of both will do.
+  const std::optional<EnvironmentAirlight> environment = frame.take_environment_airlight();
+  // Adds it to a step's airlight. Returns what the airlight is then.
+  const auto add_environment = [&](const March& to, std::uint32_t id) {
+    if (!environment) return to.airlight;
+    EnvironmentAirlight a = *environment;
+    a.distance = to.distance, a.optical_depth = to.optical_depth, a.scattered = to.airlight, a.view = to.view;
+    a.airlight = handle(id, environment->airlight, to.airlight.extent);
+    steps.push_back({a, "the environment's light, scattered once along the view ray"});
+    return a.airlight;
+  };
 
   March part = whole;
   part.view = subsampled(whole.view, stride);
@@ -79,14 +97,15 @@ void sample(FramePlan& frame, const March whole, std::string_view why, int strid
   part.airlight = handle(part_airlight, whole.airlight, few);
   part.per_light = handle(part_per_light, whole.per_light, few);
   part.transmittance = handle(part_transmittance, whole.transmittance, few);
-  part.optical_depth = {};
+  part.optical_depth = environment ? handle(part_depth, whole.optical_depth, few) : Image{};
   steps.push_back(
       {Subsample{.whole = whole.distance, .stride = stride, .part = part.distance}, "where the rays of few pixels end"});
   steps.push_back({part, why});
+  const Image sampled_airlight = add_environment(part, part_environment);
 
   const DepthAwareUpsample between{.distance = whole.distance,
                                    .sampled_distance = part.distance,
-                                   .sampled_airlight = part.airlight,
+                                   .sampled_airlight = sampled_airlight,
                                    .sampled_per_light = part.per_light,
                                    .sampled_transmittance = part.transmittance,
                                    .stride = stride,
@@ -101,21 +120,22 @@ void sample(FramePlan& frame, const March whole, std::string_view why, int strid
   rest.airlight = handle(rest_airlight, whole.airlight, all);
   rest.per_light = handle(rest_per_light, whole.per_light, all);
   rest.transmittance = handle(rest_transmittance, whole.transmittance, all);
-  rest.optical_depth = {};
+  rest.optical_depth = environment ? handle(rest_depth, whole.optical_depth, all) : Image{};
   steps.push_back({rest, "the pixels of which they do not tell"});
+  const Image rest_and_environment = add_environment(rest, rest_environment);
 
   steps.push_back({FillAirlight{.remaining = between.remaining,
                                 .upsampled = between.airlight,
                                 .upsampled_per_light = between.per_light,
                                 .upsampled_transmittance = between.transmittance,
-                                .computed = rest.airlight,
+                                .computed = rest_and_environment,
                                 .computed_per_light = rest.per_light,
                                 .computed_transmittance = rest.transmittance,
-                                .airlight = whole.airlight,
+                                .airlight = environment ? environment->airlight : whole.airlight,
                                 .per_light = whole.per_light,
                                 .transmittance = whole.transmittance},
                    "both together"});
-  if (!whole.optical_depth) return;
+  if (!whole.optical_depth || (environment && !whole.optical_depth.keep)) return;
   March depth = depth_alone(whole);
   depth.airlight = handle(depth_airlight, whole.airlight, all);
   depth.transmittance = handle(depth_transmittance, whole.transmittance, all);

@@ -118,7 +118,9 @@ Technique gaussian_airlight() {
       environment_knob(),
       environment_indirect_knob(),
       environment_shadows_knob(),
-      environment_rays_knob()};
+      environment_rays_knob(),
+      environment_depth_knob(),
+      environment_cells_knob()};
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate_gaussian_airlight;

@@ -121,7 +121,9 @@ Technique illumination_network() {
       scattered_environment_knob(),
       environment_indirect_knob(),
       environment_shadows_knob(),
-      environment_rays_knob()};
+      environment_rays_knob(),
+      environment_depth_knob(),
+      environment_cells_knob()};
   t.multiple_scattering = true;
   t.refuses = refuses;
   t.plan = plan;

@@ -72,7 +72,9 @@ Technique marching() {
       environment_knob(),
       environment_indirect_knob(),
       environment_shadows_knob(),
-      environment_rays_knob()};
+      environment_rays_knob(),
+      environment_depth_knob(),
+      environment_cells_knob()};
   t.refuses = [](const Scene& scene) {
     const auto why = refuses_noise(scene);
     return why ? why : refuses_environment(scene);

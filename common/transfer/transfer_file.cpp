@@ -1,10 +1,13 @@
 #include "common/transfer/transfer_file.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "common/scene/sha256.h"
@@ -62,12 +65,18 @@ std::string transfer_content(const Scene& scene, int rays) {
   return content.hex();
 }
 
-std::string transfer_path(const Scene& scene, const std::string& content) {
-  const Mesh* largest = nullptr;
-  for (const Surface& s : scene.surfaces) {
-    if (!s.mesh->file.empty() && (!largest || s.mesh->triangles.size() > largest->triangles.size())) largest = s.mesh.get();
+std::string transfer_path(const std::string& content) {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value ? value : "");
+  };
+  std::filesystem::path cache = variable("XDG_CACHE_HOME");
+  if (!cache.is_absolute()) {
+    const std::filesystem::path home = variable("HOME");
+    if (!home.is_absolute()) return "";
+    cache = home / ".cache";
   }
-  return largest ? largest->file + "." + content.substr(0, 16) + ".transfer" : "";
+  return (cache / "airlight" / (content.substr(0, 16) + ".transfer")).string();
 }
 
 std::optional<SurfaceTransfer> read_transfer(const std::string& path, const std::string& content, const Scene& scene) {
@@ -104,6 +113,8 @@ std::optional<SurfaceTransfer> read_transfer(const std::string& path, const std:
 }
 
 void write_transfer(const std::string& path, const std::string& content, const SurfaceTransfer& transfer) {
+  std::error_code told_by_the_file;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), told_by_the_file);
   TemporaryFile file(path);
   Sha256 checksum;
   const auto write = [&](std::string_view part) {

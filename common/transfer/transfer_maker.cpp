@@ -20,8 +20,9 @@ std::shared_ptr<const SurfaceTransfer> TransferMaker::transfer(const Scene& scen
   if (last_ && key == key_) return last_;
   const auto start = std::chrono::steady_clock::now();
   std::string note;
-  const std::string content = keep_ ? transfer_content(scene, rays) : "", path = keep_ ? transfer_path(scene, content) : "";
+  const std::string content = keep_ ? transfer_content(scene, rays) : "", path = keep_ ? transfer_path(content) : "";
   std::optional<SurfaceTransfer> found;
+  if (keep_ && path.empty()) note = "not kept: neither XDG_CACHE_HOME nor HOME names a folder";
   if (!path.empty()) found = read_transfer(path, content, scene);
   if (found) {
     note = "read from " + path;

@@ -13,7 +13,7 @@ namespace airlight {
 
 class TransferMaker final : public TransferSource {
  public:
-  // `keep`: look for files beside meshes, and write them there.
+  // `keep`: look for files in the cache folder, and write them there.
   TransferMaker(int threads, bool keep) : threads_(threads), keep_(keep) {}
 
   // Whom to tell how far it is, until the next call.

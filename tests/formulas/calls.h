@@ -64,6 +64,7 @@ FORMULA void call_environment(int formula, table t, int kind, INPUTS, RESULTS) {
     r[2] = environment_scattered_published(a[0]);
   }
   if (formula == 82) environment_scattered_to_surface(a[0], r[0], r[1]);
+  if (formula == 83) r[0] = depth_in_lattice(t + 1, real(5.0), real(4.0), real(3.0), a[0], a[1], a[2]);
   if (formula == 79) environment_reflection(t, a[0], a[1], a[2], r[0], r[1], r[2]);
 }
 
@@ -165,7 +166,7 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 64) gradient_noise(a[0], a[1], a[2], r[0], r[1], r[2]);
   if (formula == 65) bent_ray(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11], r[0], r[1], r[2]);
   if ((formula >= 70) && (formula < 76)) call_harmonics(formula, t, kind, a, r);
-  if ((formula >= 76) && (formula <= 82) && (formula != 81)) call_environment(formula, t, kind, a, r);
+  if ((formula >= 76) && (formula <= 83) && (formula != 81)) call_environment(formula, t, kind, a, r);
   if (formula == 81) r[0] = surface_airlight_psf(t, a[0], a[1]);
   if ((formula >= 90) && (formula < 95)) call_brdf(formula, t, a, r);
   if (formula == 95) r[0] = splat_before(a[0]);

@@ -2,7 +2,6 @@
 #include "common/plan/surface_airlight_tables.h"
 #include "tests/parity/brdfs.h"
 #include "tests/parity/inputs.h"
-#include "tests/parity/medium.h"
 
 namespace airlight {
 
@@ -22,7 +21,7 @@ Environment test_environment(Extent extent) {
   return {image, {1.2, 1.2, 1.2}, 30};
 }
 
-Case lit(Extent extent, const Environment& environment, const std::vector<Material>& materials, int gaussians,
+Case lit(Extent extent, const Environment& environment, const std::vector<Material>& materials, bool medium,
          bool partly_hidden = false, const std::vector<std::shared_ptr<const Brdf>>& brdfs = {},
          const std::vector<int>& brdf = {}) {
   Case c;
@@ -40,6 +39,13 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
   const auto bytes = std::as_bytes(std::span(tables));
   const Buffer buffer{{5}, bytes.size()};
   c.buffers.emplace_back(buffer, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  Image mean_depth;
+  if (medium) {
+    mean_depth = {{9}, Format::r32f, extent, 1, false};
+    std::vector<float> values(mean_depth.floats());
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(3 * uniform(10, i));
+    c.images.emplace_back(mean_depth, std::move(values));
+  }
   Image hidden[2];
   for (std::uint32_t k = 0; k < 2 && partly_hidden; ++k) {
     hidden[k] = {{7 + k}, Format::rgb32f, extent, 1, false};
@@ -52,12 +58,12 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
                                .normal = surfaces.normal,
                                .material = surfaces.material,
                                .transmittance = transmittance,
+                               .mean_depth = mean_depth,
                                .tables = buffer,
                                .hidden_diffuse = hidden[0],
                                .hidden_specular = hidden[1],
                                .materials = materials,
                                .brdf = brdf,
-                               .gaussians = test_gaussians(gaussians),
                                .view = view,
                                .environment = result},
               ""}};
@@ -65,33 +71,33 @@ Case lit(Extent extent, const Environment& environment, const std::vector<Materi
   return c;
 }
 
-Case image(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), 12); }
-Case constant(Extent e) { return lit(e, {nullptr, {0.3, 0.5, 0.9}, 0}, {test_materials()[0]}, 0); }
-Case partly_hidden(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), 12, true); }
+Case image(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), true); }
+Case constant(Extent e) { return lit(e, {nullptr, {0.3, 0.5, 0.9}, 0}, {test_materials()[0]}, false); }
+Case partly_hidden(Extent e) { return lit(e, test_environment({64, 32}), test_materials(), true, true); }
 Case glossy(Extent e) {
   std::vector<Material> materials = test_materials();
   materials[0].specular = {0.3F, 0.2F, 0.1F};
   materials[0].shininess = 1;
   materials[1].shininess = 1000;
-  return lit(e, test_environment({4, 2}), materials, 300);
+  return lit(e, test_environment({4, 2}), materials, true);
 }
 
 Case tabulated(Extent e) {
-  return lit(e, test_environment({64, 32}), test_materials(), 12, true,
+  return lit(e, test_environment({64, 32}), test_materials(), true, true,
              {microfacet_table({8, 8, 8}, 0.6), microfacet_table({24, 12, 12}, 0.3)}, {1, 0});
 }
 Case tabulated_and_matt(Extent e) {
-  return lit(e, test_environment({4, 2}), test_materials(), 0, false, {microfacet_table({24, 12, 12}, 0.4)}, {-1, 0});
+  return lit(e, test_environment({4, 2}), test_materials(), false, false, {microfacet_table({24, 12, 12}, 0.4)}, {-1, 0});
 }
 
 }  // namespace
 
 std::span<const NamedCase> environment_light_cases() {
-  static constexpr NamedCase cases[] = {{"environment_light/image_12_gaussians", image},
+  static constexpr NamedCase cases[] = {{"environment_light/image", image},
                                         {"environment_light/partly_hidden", partly_hidden},
                                         {"environment_light/constant_clear", constant},
-                                        {"environment_light/shininess_1_and_1000_300_gaussians", glossy},
-                                        {"environment_light/two_tabulated_12_gaussians", tabulated},
+                                        {"environment_light/shininess_1_and_1000", glossy},
+                                        {"environment_light/two_tabulated", tabulated},
                                         {"environment_light/tabulated_and_matt", tabulated_and_matt}};
   return cases;
 }

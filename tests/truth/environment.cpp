@@ -133,6 +133,53 @@ TEST_P(EnvironmentTruth, StatesTheDistance) {
 INSTANTIATE_TEST_SUITE_P(Skies, EnvironmentTruth, testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Steam of many Gaussians about the box: where their mean depths are found, beside the truth and beside a depth a pixel.
+TEST(EnvironmentDepth, StatesTheDistance) {
+  Scene scene = box_under(sky(4, 20), 0, 20);
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const auto number = [&](std::uint32_t k) { return uniform(185, 4 * i + k); };
+    scene.medium.gaussians.push_back({.center = {3 * number(0) - 1.5, 1.8 * number(1), 3 * number(2) - 1.5},
+                                      .radius = 0.25 + 0.2 * number(3),
+                                      .extinction = 0.25});
+  }
+  constexpr Extent extent{16, 12};
+  const ReferenceFrame truth = surfaces_alone(scene, extent);
+  EXPECT_FALSE(!(truth.error <= tolerance("environment_truth")));
+  for (const char* backend : {"cpu", "gl"}) {
+    Renderer renderer({.backend = backend, .gl_context = "osmesa"});
+    HostImage of_pixels;
+    double error_of_pixels = 0;
+    for (const char* choice : {"pixel", "lattice", "object"}) {
+      RenderSettings settings;
+      settings.technique = "gaussian-airlight";
+      settings.knobs = {{"environment_depth", choice}};
+      settings.resolution = extent;
+      settings.images = {"surface"};
+      const Frame frame = renderer.render(scene, settings);
+      const HostImage& image = frame.image("surface");
+      if (of_pixels.values.empty()) of_pixels = image;
+      RelativeRmse error, beside;
+      for (std::size_t i = 0; i < image.values.size(); ++i) {
+        if (truth.edges[i / 3] || truth.pixels[i / 3].surface_index < 0) continue;
+        error.add(static_cast<double>(image.values[i]), truth.pixels[i / 3].surface_environment[static_cast<int>(i % 3)]);
+        beside.add(static_cast<double>(image.values[i]), static_cast<double>(of_pixels.values[i]));
+      }
+      std::printf("%s %s: relative RMSE on surfaces %.2f %%, to a depth a pixel %.3f %%\n", backend, choice, 100 * error.value(),
+                  100 * beside.value());
+      if (choice == std::string_view("pixel")) {
+        error_of_pixels = error.value();
+        EXPECT_FALSE(!(error.value() <= tolerance("environment_depth_pixel")));
+      } else if (choice == std::string_view("lattice")) {
+        EXPECT_GT(beside.value(), 0);
+        EXPECT_FALSE(!(beside.value() <= tolerance("environment_depth_lattice")));
+        EXPECT_FALSE(!(error.value() <= error_of_pixels + tolerance("environment_depth_lattice")));
+      } else {
+        EXPECT_FALSE(!(error.value() <= tolerance("environment_depth_object")));
+      }
+    }
+  }
+}
+
 Scene steam(double thickness) {
   Scene scene = in_steam(box_under(sky(4, 20), 0, 20), thickness);
   scene.surfaces.clear();

@@ -61,6 +61,10 @@ class Exact {
     const auto& [kind, rows, first, scale, nodes, halves] = volume;
     all(kind, rows[0], rows[1], rows[2], first, scale, nodes, halves);
   }
+  void put(const DepthLattice& lattice) {
+    const auto& [corner, spacing, nodes, first] = lattice;
+    all(corner, spacing, nodes.x, nodes.y, nodes.z, first);
+  }
   template <class T>
   void put(const std::vector<T>& values) {
     put(values.size());

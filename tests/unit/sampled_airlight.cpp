@@ -238,6 +238,45 @@ INSTANTIATE_TEST_SUITE_P(Techniques, SampledAirlight,
                          });
 
 // Where nothing is gained the plan is that of the full resolution, and says why.
+// Under nothing but an environment: what it sends and what is left of it on its way come from few pixels, its depth too.
+TEST(SampledAirlightPlan, TakesAnEnvironmentFromFewPixels) {
+  Scene scene = scene_of("gaussian-airlight");
+  scene.lights.clear();
+  scene.medium.gaussians.clear();
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    const auto number = [i](std::uint32_t k) { return uniform(910, 3 * i + k); };
+    scene.medium.gaussians.push_back(
+        {.center = {2 * number(0) - 1, number(1), 2 * number(2) - 1}, .radius = 0.6, .extinction = 0.1});
+  }
+  scene.environment = Environment{nullptr, {1, 2, 3}, 0};
+  for (const char* backend : {"cpu", "gl"}) {
+    Renderer renderer({.backend = backend, .gl_context = "osmesa"});
+    const auto render = [&](const char* resolution, std::vector<std::string> images = {"beauty", "airlight", "transmittance"}) {
+      return renderer.render(scene, settings_of("gaussian-airlight", resolution, std::move(images)));
+    };
+    const Frame full = render("full");
+    for (const char* resolution : {"half", "quarter"}) {
+      const Frame some = render(resolution);
+      for (const StepStats& step : some.stats.steps) EXPECT_NE(step.why, "the optical depth of every pixel");
+      for (const std::string name : {"airlight", "transmittance", "beauty"}) {
+        const std::vector<float>&a = full.image(name).values, &b = some.image(name).values;
+        double squares = 0, power = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+          const double apart = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+          squares += apart * apart, power += static_cast<double>(a[i]) * static_cast<double>(a[i]);
+        }
+        const double error = std::sqrt(squares / power);
+        std::printf("%s, %s: %s within %.4f %%\n", backend, resolution, name.c_str(), 100 * error);
+        EXPECT_FALSE(!(error < 0.01)) << name;
+        EXPECT_GT(error, 0) << name;
+      }
+      const Frame told = render(resolution, {"beauty", "optical_depth"});
+      EXPECT_EQ(told.image("optical_depth").values, render("full", {"optical_depth"}).image("optical_depth").values);
+      EXPECT_EQ(told.image("beauty").values, some.image("beauty").values);
+    }
+  }
+}
+
 TEST(SampledAirlightPlan, SaysWhatItLeaves) {
   Scene scene = scene_of("gaussian-airlight");
   RenderSettings half = settings_of("gaussian-airlight", "half", {"beauty"}), full = half;

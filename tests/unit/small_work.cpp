@@ -9,11 +9,13 @@ namespace airlight {
 
 const std::map<std::string_view, std::vector<std::string>>& small_numbers() {
   static const std::map<std::string_view, std::vector<std::string>> all{
-      {"table_nodes", {"16", "17"}}, {"samples", {"2", "3"}},     {"lost_depth", {"1e-3", "1e-4"}},
-      {"light_cells", {"1", "1.5"}}, {"particles", {"60", "90"}}, {"directions", {"6", "9"}},
-      {"iterations", {"30", "2"}},   {"tolerance", {"0.1", "1"}}, {"resolution", {"6", "9"}},
-      {"steps", {"4", "6"}},         {"light_steps", {"3", "5"}}, {"environment_rays", {"16", "20"}},
-      {"splat_radius", {"0.8", "1"}}};
+      {"table_nodes", {"16", "17"}},     {"samples", {"2", "3"}},
+      {"lost_depth", {"1e-3", "1e-4"}},  {"light_cells", {"1", "1.5"}},
+      {"particles", {"60", "90"}},       {"directions", {"6", "9"}},
+      {"iterations", {"30", "2"}},       {"tolerance", {"0.1", "1"}},
+      {"resolution", {"6", "9"}},        {"steps", {"4", "6"}},
+      {"light_steps", {"3", "5"}},       {"environment_rays", {"16", "20"}},
+      {"environment_cells", {"1", "2"}}, {"splat_radius", {"0.8", "1"}}};
   return all;
 }
 

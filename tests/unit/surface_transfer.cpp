@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -27,15 +29,13 @@ namespace {
 
 constexpr int rays = 64;
 
-// A torus above a floor. `file`: that the torus is said to come from.
-Scene over_floor(const std::string& file = "") {
+// A torus above a floor.
+Scene over_floor() {
   Scene scene;
   scene.environment = Environment{nullptr, {1, 2, 3}, 0};
   scene.camera.position = {0, 1.5, 4}, scene.camera.look_at = {0, 0.3, 0};
-  Mesh torus = *wavy_torus(300);
-  torus.file = file;
   scene.surfaces.resize(2);
-  scene.surfaces[0].mesh = std::make_shared<const Mesh>(torus);
+  scene.surfaces[0].mesh = wavy_torus(300);
   scene.surfaces[0].transform[3] = glm::dvec4(0, 0.6, 0, 1);
   scene.surfaces[1].mesh = square(3);
   return scene;
@@ -82,8 +82,18 @@ TEST(SurfaceTransfers, CutEdgesForBothOfTheirTriangles) {
   std::printf("%zu places more\n", transfer->midpoints.size());
 }
 
+// With a cache folder of their own.
 class TransferFiles : public testing::Test {
  protected:
+  TransferFiles() { set("XDG_CACHE_HOME", folder.path()); }
+  ~TransferFiles() override { set("XDG_CACHE_HOME", cache_), set("HOME", home_); }
+  static void set(const char* name, const std::optional<std::string>& value) {
+    value ? setenv(name, value->c_str(), 1) : unsetenv(name);
+  }
+  static std::optional<std::string> variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? std::optional<std::string>(value) : std::nullopt;
+  }
   const SurfaceTransfer& made(const Scene& scene, std::string& note) {
     TransferMaker maker(2, true);
     last_ = maker.transfer(scene, rays);
@@ -92,12 +102,15 @@ class TransferFiles : public testing::Test {
   }
   Folder folder;
   std::shared_ptr<const SurfaceTransfer> last_;
+
+ private:
+  std::optional<std::string> cache_ = variable("XDG_CACHE_HOME"), home_ = variable("HOME");
 };
 
 TEST_F(TransferFiles, KeepThem) {
-  const Scene scene = over_floor(folder.file("torus.obj"));
-  const std::string content = transfer_content(scene, rays), path = transfer_path(scene, content);
-  EXPECT_EQ(path, folder.file("torus.obj." + content.substr(0, 16) + ".transfer"));
+  const Scene scene = over_floor();
+  const std::string content = transfer_content(scene, rays), path = transfer_path(content);
+  EXPECT_EQ(path, folder.file("airlight/" + content.substr(0, 16) + ".transfer"));
   std::string note;
   const SurfaceTransfer first = made(scene, note);
   EXPECT_EQ(note, "kept in " + path);
@@ -108,12 +121,12 @@ TEST_F(TransferFiles, KeepThem) {
   moved.surfaces[0].transform[3].y += 0.1;
   EXPECT_FALSE(read_transfer(path, transfer_content(moved, rays), moved));
   EXPECT_FALSE(read_transfer(path, transfer_content(scene, rays + 1), scene));
-  EXPECT_NE(transfer_path(moved, transfer_content(moved, rays)), path);
+  EXPECT_NE(transfer_path(transfer_content(moved, rays)), path);
 }
 
 TEST_F(TransferFiles, DamagedOnesAreMadeAnew) {
-  const Scene scene = over_floor(folder.file("torus.obj"));
-  const std::string content = transfer_content(scene, rays), path = transfer_path(scene, content);
+  const Scene scene = over_floor();
+  const std::string content = transfer_content(scene, rays), path = transfer_path(content);
   std::string note;
   const SurfaceTransfer first = made(scene, note);
   const std::string whole = bytes_of(path);
@@ -134,14 +147,24 @@ TEST_F(TransferFiles, DamagedOnesAreMadeAnew) {
   EXPECT_EQ(bytes_of(path), whole);
 }
 
-TEST_F(TransferFiles, AreNotNeeded) {
+TEST_F(TransferFiles, StandInTheCacheFolder) {
+  set("XDG_CACHE_HOME", "relative"), set("HOME", folder.path());
+  EXPECT_EQ(transfer_path("0123456789abcdefg"), folder.file(".cache/airlight/0123456789abcdef.transfer"));
+  set("XDG_CACHE_HOME", std::nullopt);
+  EXPECT_EQ(transfer_path("0123456789abcdefg"), folder.file(".cache/airlight/0123456789abcdef.transfer"));
+  set("HOME", std::nullopt);
   std::string note;
-  made(over_floor(folder.file("absent/torus.obj")), note);
+  made(over_floor(), note);
+  EXPECT_EQ(note, "not kept: neither XDG_CACHE_HOME nor HOME names a folder");
+}
+
+TEST_F(TransferFiles, AreNotNeeded) {
+  set("XDG_CACHE_HOME", folder.write("file", "no folder"));
+  std::string note;
+  made(over_floor(), note);
   std::printf("%s\n", note.c_str());
   EXPECT_TRUE(note.starts_with("not kept: "));
-  made(over_floor(), note);
-  EXPECT_EQ(note, "");
-  EXPECT_EQ(folder.entries(), 0);
+  EXPECT_EQ(folder.entries(), 1);
 }
 
 // A wall beside a place of the floor hides half of what is above it: the first harmonic of 1 there is pi / sqrt(4 pi), and of

@@ -208,6 +208,31 @@ Measured measure_scattered_to_surface(const Run& run) {
   return m;
 }
 
+// A function linear along each axis, of which lookups between nodes are exact; beyond the nodes it stands still. Beside its
+// largest value.
+Measured measure_lattice(const Run& run) {
+  Random random(stream + 7);
+  const auto value = [](double x, double y, double z) { return 1 + 0.25 * x + 0.5 * x * y + 0.125 * y * z; };
+  std::vector<float> table{77};
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 5; ++i) table.push_back(static_cast<float>(value(i, j, k)));
+    }
+  }
+  table.resize(table.size() + depth_lattice_padding);
+  Columns in;
+  for (int i = 0; i < 4000; ++i) add_call(in, random.number(-2, 7), random.number(-2, 6), random.number(-2, 5));
+  const Columns found = run({Formula::depth_in_lattice, in, {}, table});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double truth = value(std::clamp(in[0][i], 0.0, 4.0), std::clamp(in[1][i], 0.0, 3.0), std::clamp(in[2][i], 0.0, 2.0));
+    m.add(std::fabs(found[0][i] - truth) / value(4, 3, 2), [&] {
+      return place({{"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
+    });
+  }
+  return m;
+}
+
 }  // namespace
 
 void add_environment_checks(std::vector<Check>& checks) {
@@ -219,6 +244,7 @@ void add_environment_checks(std::vector<Check>& checks) {
   checks.push_back({"environment_scattered", measure_scattered, "environment_scattered_double", "environment_scattered"});
   checks.push_back({"environment_scattered_to_surface", measure_scattered_to_surface, "environment_scattered_double",
                     "environment_scattered"});
+  checks.push_back({"depth_in_lattice", measure_lattice, "grid_value_double", "depth_lookup"});
   checks.push_back({"environment_reflection", measure_reflection, "environment_reflection_double", "environment_reflection"});
 }
 

@@ -1,4 +1,4 @@
-// What gpu/mean_depth.glsl takes.
+// What gpu/gaussian_mean_depth.glsl takes.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,9 @@
 // Mean optical depth of Gaussians. Included after cpu/simd.h and cpu/pixel_rays.h, anew for every target.
-#if defined(AIRLIGHT_CPU_MEAN_DEPTH_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef AIRLIGHT_CPU_MEAN_DEPTH_H
-#undef AIRLIGHT_CPU_MEAN_DEPTH_H
+#if defined(AIRLIGHT_CPU_GAUSSIAN_MEAN_DEPTH_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef AIRLIGHT_CPU_GAUSSIAN_MEAN_DEPTH_H
+#undef AIRLIGHT_CPU_GAUSSIAN_MEAN_DEPTH_H
 #else
-#define AIRLIGHT_CPU_MEAN_DEPTH_H
+#define AIRLIGHT_CPU_GAUSSIAN_MEAN_DEPTH_H
 #endif
 
 #include <vector>
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
 
 // Over all directions from a place.
-static HWY_INLINE Real mean_depth(const std::vector<GaussianDensity>& gaussians, const Real3& place) {
+HWY_INLINE Real gaussian_mean_depth(const std::vector<GaussianDensity>& gaussians, const Real3& place) {
   Real depth = 0.0;
   for (const GaussianDensity& g : gaussians) {
     const float in_radii = 1 / g.radius;
