@@ -13,7 +13,10 @@ using namespace airlight;
 namespace {
 
 int usage() {
-  std::fputs("usage: airlight-bits [scalar | avx2 | avx512 | neon | widest [THREADS]]   widest on one thread\n", stderr);
+  std::fputs(
+      "usage: airlight-bits [scalar | avx2 | avx512 | neon | widest [THREADS [NAME]]]   widest on one thread; cases whose name "
+      "begins so\n",
+      stderr);
   return 2;
 }
 
@@ -55,7 +58,8 @@ void print_hashes(const NamedCase& named, Extent extent, const CpuOptions& optio
 
 int main(int argc, char** argv) {
   CpuOptions options{.threads = argc > 2 ? std::atoi(argv[2]) : 1};
-  if (argc > 3 || options.threads < 1) return usage();
+  const std::string_view name = argc > 3 ? argv[3] : "";
+  if (argc > 4 || options.threads < 1) return usage();
   if (argc > 1 && std::string_view(argv[1]) != "widest") {
     bool there = false;
     for (const Simd simd : available_simd()) {
@@ -66,6 +70,10 @@ int main(int argc, char** argv) {
     if (!there) return usage();
   }
   std::fprintf(stderr, "%s\n", CpuBackend(options).describe().c_str());
-  for (const NamedCase& named : all_cases()) print_hashes(named, {136, 80}, options);  // six tiles, four of them cut off
-  for (const NamedCase& named : long_cases()) print_hashes(named, {32, 24}, options);
+  for (const NamedCase& named : all_cases()) {
+    if (named.name.starts_with(name)) print_hashes(named, {72, 70}, options);  // four tiles, three of them cut off
+  }
+  for (const NamedCase& named : long_cases()) {
+    if (named.name.starts_with(name)) print_hashes(named, {24, 18}, options);
+  }
 }
