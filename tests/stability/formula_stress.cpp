@@ -35,7 +35,9 @@ long double mean(long double tau) { return tau == 0 ? 1 : opaque(tau) / tau; }
 StressedFormula one(std::string name, Formula f, std::string domain, std::function<double(Draw&)> number,
                     std::initializer_list<double> branches, long double (*truth)(long double), std::string scale,
                     double (*scale_of)(const In&, double), std::string_view bound) {
-  StressedFormula s{std::move(name), f, {}, std::move(domain), {}, {}, {}, std::move(scale), scale_of, bound};
+  StressedFormula s;
+  s.name = std::move(name), s.formula = f, s.domain = std::move(domain), s.scale = std::move(scale), s.scale_of = scale_of;
+  s.bound = bound;
   s.draw = [number](Draw& draw, Columns& in) { add_call(in, number(draw)); };
   s.special = [b = std::vector<double>(branches)](Columns& in) {
     for (const double x : b) around(in, x);
@@ -67,6 +69,7 @@ void add_elementary(std::vector<StressedFormula>& all) {
   all.push_back(one(
       "atan_", Formula::atan, "0 and above", any_magnitude, {0, 1e-30, 1, largest}, [](long double x) { return std::atan(x); },
       "itself", relative, "stress_relative"));
+  for (StressedFormula& s : all) s.rises = s.formula == Formula::erf_printed ? 0 : 1;
 }
 
 void add_fades(std::vector<StressedFormula>& all) {
@@ -83,6 +86,10 @@ void add_fades(std::vector<StressedFormula>& all) {
   all.push_back(one(
       "splat_opacity", Formula::splat_opacity, "0..1e30", any_magnitude, {0, 1e-37, 1, 87, 1e30},
       [](long double x) { return opaque(x); }, "itself", relative, "splat_opacity"));
+  for (StressedFormula& s : all) {
+    if (s.formula == Formula::transmittance || s.formula == Formula::mean_transmittance) s.rises = -1;
+    if (s.formula == Formula::opacity || s.formula == Formula::splat_opacity) s.rises = 1;
+  }
   StressedFormula length = one("attenuated_length", Formula::attenuated_length, "lengths 0..1e15, extinctions 0..1e6",
                                any_magnitude, {}, nullptr, "itself", relative, "stress_length");
   length.draw = [](Draw& d, Columns& in) { add_call(in, d.magnitude(1e-9, 1e15), d.magnitude(1e-20, 1e6)); };
@@ -94,6 +101,7 @@ void add_fades(std::vector<StressedFormula>& all) {
   length.truth = [](const In& x) {
     return Out{x[1] > 0 ? static_cast<double>(-std::expm1(-x[0] * x[1]) / std::max(x[1], 1e-30)) : x[0]};
   };
+  length.rises = 1;
   all.push_back(length);
   StressedFormula point = length;
   point.name = "point_irradiance", point.formula = Formula::point_irradiance,
@@ -111,6 +119,7 @@ void add_fades(std::vector<StressedFormula>& all) {
     return Out{static_cast<double>(fade(x[0] * x[2])) / (std::max(x[0], x[1]) * std::max(x[0], x[1]))};
   };
   point.scale_of = [](const In& x, double t) { return std::max(t * (1 + x[0] * x[2]), 1e-37); };
+  point.rises = -1;
   all.push_back(point);
 }
 
@@ -170,6 +179,7 @@ void add_phases(std::vector<StressedFormula>& all) {
   phong.scale_of = [](const In& x, double t) {
     return std::max(t * (1 + std::min(std::fabs(x[2] * std::log1p(-std::min(x[1], 1 - 1e-12))), 87.0)), 1e-36);
   };
+  phong.rises = -1, phong.along = 1;
   all.push_back(phong);
 }
 
@@ -186,11 +196,12 @@ void add_gaussians(std::vector<StressedFormula>& all) {
   };
   fall.truth = [](const In& x) { return Out{std::exp2(std::max(-x[0] * x[0] * x[1] * 1.4426950408889634, -86.5))}; };
   fall.scale_of = [](const In& x, double t) { return t * (1 + std::min(x[0] * x[0] * x[1], 60.0)); };
+  fall.rises = -1, fall.along = 1;
   all.push_back(fall);
   StressedFormula depth = fall;
   depth.name = "gaussian_depth", depth.formula = Formula::gaussian_depth, depth.domain = "radii 1e-6..1e6, places to 1e30",
   depth.scale = "the whole line";
-  depth.bound = "gaussian_depth", depth.scale_of = absolute;
+  depth.bound = "gaussian_depth", depth.scale_of = absolute, depth.rises = 1, depth.along = 3;
   const auto call = [](Draw& d, Columns& in) {
     const double radius = d.magnitude(1e-6, 1e6), from = radius * (d.chance(0.5) ? 1 : -1) * d.magnitude(1e-6, 1e3);
     add_call(in, 1 / radius, radius * d.magnitude(1e-6, 30), from, d.chance(0.1) ? 1e30 : from + radius * d.magnitude(1e-6, 1e3));
@@ -208,7 +219,7 @@ void add_gaussians(std::vector<StressedFormula>& all) {
   all.push_back(depth);
   StressedFormula printed = depth;
   printed.name = "gaussian_depth, printed erf (Zhou et al. 2007)", printed.formula = Formula::gaussian_depth_printed,
-  printed.bound = "erf_printed";
+  printed.bound = "erf_printed", printed.rises = 0;
   all.push_back(printed);
 }
 
@@ -280,8 +291,11 @@ void add_steps(std::vector<StressedFormula>& all) {
     return Out{static_cast<double>(std::expm1(share * std::log1p(tau)) / x[3])};
   };
   graded.scale_of = [](const In& x, double) { return x[2]; };
+  graded.rises = 1, graded.along = 2;
   all.push_back(graded);
 }
+
+}  // namespace
 
 std::string text_of(const In& inputs) {
   std::string all;
@@ -293,19 +307,18 @@ std::string text_of(const In& inputs) {
   return all;
 }
 
-}  // namespace
-
 std::vector<StressedFormula> stressed_formulas() {
   std::vector<StressedFormula> all;
-  add_elementary(all), add_fades(all), add_phases(all), add_gaussians(all), add_links(all), add_steps(all);
+  add_elementary(all), add_fades(all), add_phases(all), add_gaussians(all), add_links(all), add_steps(all), add_integrals(all);
   return all;
 }
 
 FormulaStress stress(const StressedFormula& f, std::uint32_t stream, std::size_t calls) {
-  Calls asked{f.formula, {}, f.phase, {}};
+  Calls asked{f.formula, {}, f.phase, f.table};
   f.special(asked.inputs);
   Draw draw(stream);
-  for (std::size_t i = 0; i < calls; ++i) f.draw(draw, asked.inputs);
+  const auto drawn = static_cast<std::size_t>(std::ceil(static_cast<double>(calls) * f.share));
+  for (std::size_t i = 0; i < drawn; ++i) f.draw(draw, asked.inputs);
   const Columns found = run_float(asked);
   FormulaStress result;
   const std::size_t n = asked.inputs[0].size();

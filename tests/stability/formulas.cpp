@@ -23,5 +23,17 @@ TEST(FormulaStress, HoldOverTheirDomains) {
   std::printf("%zu results\n", calls);
 }
 
+TEST(FormulaStress, RisesOrFallsOnNeighbouringFloats) {
+  for (const StressedFormula& f : stressed_formulas()) {
+    if (f.rises == 0) continue;
+    const Monotony found = monotony(f, 78, 500);
+    const double allowed = 2 * tolerance(f.bound);  // each of the two may be off by its bound
+    std::printf("%s: %zu of %zu neighbours step back, at most %.3g of %s, allowed %.3g, at %s\n", f.name.c_str(), found.back,
+                found.pairs, found.largest.error, f.scale.c_str(), allowed, found.largest.where.c_str());
+    EXPECT_GT(found.pairs, 500U) << f.name;
+    EXPECT_FALSE(!(found.largest.error <= allowed)) << f.name << " at " << found.largest.where;
+  }
+}
+
 }  // namespace
 }  // namespace airlight

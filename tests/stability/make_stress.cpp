@@ -22,8 +22,8 @@ namespace {
 int usage() {
   std::fputs(
       "usage: airlight-stress FIRST COUNT [SECONDS]   tries so many scenes from a number on, at most so long; 1 where any fails\n"
-      "       airlight-stress --formulas STREAM CALLS  calls each closed form so often, with numbers of a stream: a table; 1 "
-      "where any is off\n"
+      "       airlight-stress --formulas STREAM CALLS [NAME]  calls each formula so often, those whose truth takes long more "
+      "rarely, with numbers of a stream, or those alone whose name begins so: tables; 1 where any is off\n"
       "       airlight-stress --write NUMBER FOLDER   writes one as scene.json, for: airlight render FOLDER/scene.json\n",
       stderr);
   return 2;
@@ -69,14 +69,18 @@ int run(std::uint32_t first, std::uint32_t count, double limit) {
   return failed > 0 ? 1 : 0;
 }
 
-int run_formulas(std::uint32_t stream, std::size_t calls) {
+int run_formulas(std::uint32_t stream, std::size_t calls, std::string_view name) {
   constexpr std::size_t at_once = 100000;
   bool good = true;
   fmt::print("| formula | domain | largest error | of | allowed | at |\n|---|---|---|---|---|---|\n");
-  for (const StressedFormula& f : stressed_formulas()) {
+  std::size_t results = 0, pairs = 0;
+  const std::vector<StressedFormula> formulas = stressed_formulas();
+  for (const StressedFormula& f : formulas) {
+    if (!f.name.starts_with(name)) continue;
     FormulaStress worst;
     for (std::size_t done = 0; done < calls; done += at_once) {
       const FormulaStress found = stress(f, stream + static_cast<std::uint32_t>(done / at_once), std::min(at_once, calls - done));
+      results += found.measured.count;
       worst.not_finite += found.not_finite, worst.other_bits += found.other_bits;
       if (!(found.measured.error <= worst.measured.error)) worst.measured = found.measured;
     }
@@ -85,7 +89,25 @@ int run_formulas(std::uint32_t stream, std::size_t calls) {
     fmt::print("| {} | {} | {:.2g} | {} | {:.2g}{} | {} |\n", f.name, f.domain, worst.measured.error, f.scale, tolerance(f.bound),
                held ? "" : fmt::format(" MISSED, {} not finite, {} of other bits", worst.not_finite, worst.other_bits),
                worst.measured.where);
+    std::fflush(stdout);
   }
+  // Neighbouring floats: 33 a place. Each of two may be off by its bound.
+  fmt::print("\n| formula | neighbours | step back | at most | of | at |\n|---|---|---|---|---|---|\n");
+  for (const StressedFormula& f : formulas) {
+    if (f.rises == 0 || !f.name.starts_with(name)) continue;
+    Monotony all;
+    for (std::size_t done = 0; done < calls / 33; done += at_once / 33) {
+      const Monotony found = monotony(f, stream + static_cast<std::uint32_t>(done), std::min(at_once / 33, calls / 33 - done));
+      all.pairs += found.pairs, all.back += found.back;
+      if (!(found.largest.error <= all.largest.error)) all.largest = found.largest;
+    }
+    const bool held = all.largest.error <= 2 * tolerance(f.bound);
+    good = good && held;
+    pairs += all.pairs;
+    fmt::print("| {} | {} | {} | {:.2g}{} | {} | {} |\n", f.name, all.pairs, all.back, all.largest.error, held ? "" : " MISSED",
+               f.scale, all.largest.where);
+  }
+  fmt::print("\n{} results held to the truth, {} pairs of neighbours\n", results, pairs);
   return good ? 0 : 1;
 }
 
@@ -101,8 +123,9 @@ int main(int argc, char** argv) {
     fmt::print("{}/scene.json: {}; {}\n", argv[3], asked.text(), hostile.traits);
     return 0;
   }
-  if (argc == 4 && std::string(argv[1]) == "--formulas")
-    return run_formulas(static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)), std::strtoul(argv[3], nullptr, 10));
+  if ((argc == 4 || argc == 5) && std::string(argv[1]) == "--formulas")
+    return run_formulas(static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)), std::strtoul(argv[3], nullptr, 10),
+                        argc == 5 ? argv[4] : "");
   if (argc != 3 && argc != 4) return usage();
   return run(static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)),
              static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10)), argc > 3 ? std::atof(argv[3]) : 0);

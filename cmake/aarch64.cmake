@@ -1,0 +1,13 @@
+# Cross-builds airlight-bits for 64-bit ARM: compiler of g++-aarch64-linux-gnu, Highway and GLM unpacked in AIRLIGHT_SYSROOT
+# (tests/parity/bits does that), run under qemu-user.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES AIRLIGHT_SYSROOT)
+set(CMAKE_FIND_ROOT_PATH ${AIRLIGHT_SYSROOT})
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_LIBDIR} ${AIRLIGHT_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${AIRLIGHT_SYSROOT})
