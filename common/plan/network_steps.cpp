@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -39,6 +40,17 @@ std::string_view reason_of(const NetworkIteration& iteration, const KnobValues& 
   return knobs.choice("acceleration") == "off"
              ? "light from particle to particle, an order of scattering a round"
              : "light from particle to particle, an order of scattering a round: the phase function depends on the direction";
+}
+
+// More than half of the medium is in Gaussians narrower than a cell of the box: lines and nodes stand too far apart for it.
+bool too_narrow(std::span<const GaussianDensity> gaussians, double cell, bool grid) {
+  double narrow = 0, all = 0;
+  for (const GaussianDensity& g : gaussians) {
+    const double radius = static_cast<double>(g.radius), mass = static_cast<double>(g.extinction) * radius * radius * radius;
+    all += mass;
+    if (radius < cell) narrow += mass;
+  }
+  return !grid && narrow > 0.5 * all;
 }
 
 }  // namespace
@@ -80,7 +92,12 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
   refuse_size(particles, directions, network.shape().links() + 2 * values);
   network.links = {{links_id}, bytes(network.shape().links())};
-  frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
+  frame.plan.steps.push_back(
+      {network,
+       too_narrow(gaussians, box.cell, static_cast<bool>(medium.grid))
+           ? "which particles light meets along each line; most lines miss what is narrower than the cells, and much light with "
+             "it: a larger resolution and more particles help"
+           : "which particles light meets along each line, and what is between them"});
 
   // Published and off are the other techniques' step and nothing.
   Buffer sky;

@@ -69,6 +69,19 @@ TEST(NetworkReuse, ExplainTellsWhyLightGoesRoundAsItDoes) {
   EXPECT_TRUE(tells("an order of scattering a round: the phase function depends on the direction"));
 }
 
+TEST(NetworkReuse, ExplainTellsWhereLinesMissTheMedium) {
+  Scene scene = two_gaussians(0.8);
+  scene.lights = network_lights();
+  RenderSettings settings;
+  settings.technique = "illumination-network";
+  const auto tells = [&] { return explain(scene, settings).find("lines miss what is narrower") != std::string::npos; };
+  EXPECT_FALSE(tells());
+  for (Gaussian& g : scene.medium.gaussians) g.radius *= 0.1, g.center *= 10;
+  EXPECT_TRUE(tells()) << explain(scene, settings);
+  settings.knobs = {{"resolution", "256"}};
+  EXPECT_FALSE(tells());
+}
+
 TEST(IlluminationNetwork, RefusesWhatHasNoParticles) {
   Scene fog;
   fog.medium.extinction = 0.1;
