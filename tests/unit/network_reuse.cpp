@@ -76,7 +76,7 @@ TEST(NetworkReuse, ExplainTellsWhereLinesMissTheMedium) {
   settings.technique = "illumination-network";
   const auto tells = [&] { return explain(scene, settings).find("lines miss what is narrower") != std::string::npos; };
   EXPECT_FALSE(tells());
-  for (Gaussian& g : scene.medium.gaussians) g.radius *= 0.1, g.center *= 10;
+  for (Gaussian& g : scene.medium.gaussians) g.radius *= 0.2, g.center *= 10;
   EXPECT_TRUE(tells()) << explain(scene, settings);
   settings.knobs = {{"resolution", "256"}};
   EXPECT_FALSE(tells());
