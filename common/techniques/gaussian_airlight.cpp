@@ -9,6 +9,7 @@
 #include "common/plan/projected_gaussians.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/surface_knobs.h"
 #include "common/techniques/estimates.h"
 
 namespace airlight {
@@ -92,35 +93,27 @@ Technique gaussian_airlight() {
   Technique t;
   t.name = "gaussian-airlight";
   t.summary = "analytic optical depths of Gaussians, single scattering by a few nodes each (Zhou et al. 2007)";
-  t.knobs = {
-      integer_knob("samples", "4", 1, 16,
-                   "nodes along the view ray in each panel, which is four radii of the smallest Gaussian there at most",
-                   {"1", "2", "3", "4", "5", "6", "8", "12", "16"}),
-      number_knob("lost_depth", "1e-4", least_lost_depth, 0.01,
-                  "optical depth that a way may lose of each Gaussian, and the share of the Gaussian's own: what lies farther "
-                  "out is left out",
-                  {"1e-5", "1e-4", "1e-3"}),
-      choice_knob("erf", {"accurate", "fast"},
-                  "error function of the Gaussians' optical depths: to single precision, or the paper's printed polynomial, 2e-4 "
-                  "of a Gaussian's whole line away",
-                  {}, {"fast"}),
-      choice_knob("light_path", {"auto", "exact", "volume", "published"},
-                  "optical depths from each node to each light: closed forms, or looked up in a volume of each light's; auto: "
-                  "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge; published: the paper's "
-                  "airlight, one sample a Gaussian and the light's way by its centre, without shadows of surfaces",
-                  {"exact", "volume"}, {"published"}),
-      number_knob("light_cells", "3", 0.5, 16, "cells of those volumes in the radius of the smallest Gaussian",
-                  {"1.5", "3", "6"}),
-      table_nodes_knob(),
-      shadows_knob(),
-      airlight_resolution_knob(),
-      indirect_knob(),
-      environment_knob(),
-      environment_indirect_knob(),
-      environment_shadows_knob(),
-      environment_rays_knob(),
-      environment_depth_knob(),
-      environment_cells_knob()};
+  t.knobs = with_surface_knobs(
+      {integer_knob("samples", "4", 1, 16,
+                    "nodes along the view ray in each panel, which is four radii of the smallest Gaussian there at most",
+                    {"1", "2", "3", "4", "5", "6", "8", "12", "16"}),
+       number_knob("lost_depth", "1e-4", least_lost_depth, 0.01,
+                   "optical depth that a way may lose of each Gaussian, and the share of the Gaussian's own: what lies farther "
+                   "out is left out",
+                   {"1e-5", "1e-4", "1e-3"}),
+       choice_knob(
+           "erf", {"accurate", "fast"},
+           "error function of the Gaussians' optical depths: to single precision, or the paper's printed polynomial, 2e-4 "
+           "of a Gaussian's whole line away",
+           {}, {"fast"}),
+       choice_knob("light_path", {"auto", "exact", "volume", "published"},
+                   "optical depths from each node to each light: closed forms, or looked up in a volume of each light's; auto: "
+                   "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge; published: the paper's "
+                   "airlight, one sample a Gaussian and the light's way by its centre, without shadows of surfaces",
+                   {"exact", "volume"}, {"published"}),
+       number_knob("light_cells", "3", 0.5, 16, "cells of those volumes in the radius of the smallest Gaussian",
+                   {"1.5", "3", "6"}),
+       table_nodes_knob()});
   t.refuses = refuses;
   t.plan = plan;
   t.estimate = estimate_gaussian_airlight;

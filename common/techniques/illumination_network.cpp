@@ -6,6 +6,7 @@
 #include "common/plan/particle_splats.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/surface_knobs.h"
 #include "common/plan/voxels.h"
 #include "common/techniques/estimates.h"
 
@@ -93,37 +94,29 @@ Technique illumination_network() {
   Technique t;
   t.name = "illumination-network";
   t.summary = "multiple scattering in Gaussians and grids, among particles (Szirmay-Kalos et al. 2005)";
-  t.knobs = {
-      integer_knob("particles", "4096", 1, 100000, "how many stand for the medium"),
-      integer_knob("directions", "256", 1, 1024,
-                   "in which light goes from particle to particle, both ways of half as many lines (of an odd one more)"),
-      choice_knob(
-          "direction_set", {"fibonacci", "random"},
-          "directions spread evenly over the sphere, or at random, always the same ones, as published; with each its opposite",
-          {}, {"random"}),
-      integer_knob("iterations", "1000", 1, 10000, "rounds at most: each is an order of scattering, or as much work"),
-      number_knob("tolerance", "0.001", 0, 1,
-                  "rounds end where about that part of the light is left out, of orders of scattering that were not made"),
-      choice_knob("acceleration", {"on", "off"},
-                  "rounds of conjugate gradients, far fewer, where the phase function is isotropic; off, rounds are orders of "
-                  "scattering everywhere"),
-      integer_knob("resolution", "32", 2, 256,
-                   "cells of the source function along the longest edge of what matters of the medium"),
-      integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium"),
-      choice_knob("image", {"source", "splats"},
-                  "what is seen: the particles' source function along the view ray, light scattered once exactly, or the "
-                  "particles, sorted, splatted and blended, as published",
-                  {}, {"splats"}),
-      splat_radius_knob(),
-      shadows_knob(),
-      airlight_resolution_knob(),
-      indirect_knob(),
-      scattered_environment_knob(),
-      environment_indirect_knob(),
-      environment_shadows_knob(),
-      environment_rays_knob(),
-      environment_depth_knob(),
-      environment_cells_knob()};
+  t.knobs = with_surface_knobs(
+      {integer_knob("particles", "4096", 1, 100000, "how many stand for the medium"),
+       integer_knob("directions", "256", 1, 1024,
+                    "in which light goes from particle to particle, both ways of half as many lines (of an odd one more)"),
+       choice_knob(
+           "direction_set", {"fibonacci", "random"},
+           "directions spread evenly over the sphere, or at random, always the same ones, as published; with each its opposite",
+           {}, {"random"}),
+       integer_knob("iterations", "1000", 1, 10000, "rounds at most: each is an order of scattering, or as much work"),
+       number_knob("tolerance", "0.001", 0, 1,
+                   "rounds end where about that part of the light is left out, of orders of scattering that were not made"),
+       choice_knob("acceleration", {"on", "off"},
+                   "rounds of conjugate gradients, far fewer, where the phase function is isotropic; off, rounds are orders of "
+                   "scattering everywhere"),
+       integer_knob("resolution", "32", 2, 256,
+                    "cells of the source function along the longest edge of what matters of the medium"),
+       integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium"),
+       choice_knob("image", {"source", "splats"},
+                   "what is seen: the particles' source function along the view ray, light scattered once exactly, or the "
+                   "particles, sorted, splatted and blended, as published",
+                   {}, {"splats"}),
+       splat_radius_knob()},
+      scattered_environment_knob());
   t.multiple_scattering = true;
   t.refuses = refuses;
   t.plan = plan;

@@ -3,6 +3,7 @@
 #include "common/plan/frame.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/surface_knobs.h"
 #include "common/plan/voxels.h"
 #include "common/techniques/estimates.h"
 
@@ -59,22 +60,14 @@ Technique marching() {
   Technique t;
   t.name = "marching";
   t.summary = "ray marching through any medium";
-  t.knobs = {
-      integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium",
-                   {"2", "4", "8", "16", "32", "64", "128", "256"}),
-      integer_knob("light_steps", "16", 1, 4096,
-                   "steps from each sample to each light, through grids and, with shadow=march, Gaussians",
-                   {"4", "8", "16", "32", "64"}),
-      choice_knob("shadow", {"analytic", "march"}, "how the light's way through Gaussians is attenuated", {"analytic", "march"}),
-      shadows_knob(),
-      airlight_resolution_knob(),
-      indirect_knob(),
-      environment_knob(),
-      environment_indirect_knob(),
-      environment_shadows_knob(),
-      environment_rays_knob(),
-      environment_depth_knob(),
-      environment_cells_knob()};
+  t.knobs =
+      with_surface_knobs({integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium",
+                                       {"2", "4", "8", "16", "32", "64", "128", "256"}),
+                          integer_knob("light_steps", "16", 1, 4096,
+                                       "steps from each sample to each light, through grids and, with shadow=march, Gaussians",
+                                       {"4", "8", "16", "32", "64"}),
+                          choice_knob("shadow", {"analytic", "march"}, "how the light's way through Gaussians is attenuated",
+                                      {"analytic", "march"})});
   t.refuses = [](const Scene& scene) {
     const auto why = refuses_noise(scene);
     return why ? why : refuses_environment(scene);

@@ -3,6 +3,7 @@
 #include "common/plan/medium_volumes.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/sampled_airlight.h"
+#include "common/plan/surface_knobs.h"
 #include "common/techniques/estimates.h"
 
 namespace airlight {
@@ -51,26 +52,17 @@ Technique opacity_propagation() {
   Technique t;
   t.name = "opacity-propagation";
   t.summary = "any medium, each light's optical depths carried through a volume (Giroud and Biri)";
-  t.knobs = {
-      integer_knob("resolution", "64", 2, 256, "cells along the longest edge of the box about Gaussians and grid",
-                   {"12", "16", "24", "32", "48", "64", "96", "128"}),
-      integer_knob("steps", "64", 1, 4096, "steps along the view ray in each stretch of medium", {"8", "16", "32", "64", "128"}),
-      choice_knob("scheme", {"rays", "upwind", "published"},
-                  "how depths are carried: along the light's rays; from cell to cell, consistently or as the paper prints it", {},
-                  {"upwind", "published"}),
-      choice_knob("density", {"auto", "exact", "volume"},
-                  "extinction along the rays: each Gaussian and the grid as it is, or all from one volume of that resolution", {},
-                  {"exact"}),
-      choice_knob("storage", {"float", "half"}, "what volumes are kept in: 32 bits a value, or 16"),
-      shadows_knob(),
-      airlight_resolution_knob(),
-      indirect_knob(),
-      environment_knob(),
-      environment_indirect_knob(),
-      environment_shadows_knob(),
-      environment_rays_knob(),
-      environment_depth_knob(),
-      environment_cells_knob()};
+  t.knobs = with_surface_knobs(
+      {integer_knob("resolution", "64", 2, 256, "cells along the longest edge of the box about Gaussians and grid",
+                    {"12", "16", "24", "32", "48", "64", "96", "128"}),
+       integer_knob("steps", "64", 1, 4096, "steps along the view ray in each stretch of medium", {"8", "16", "32", "64", "128"}),
+       choice_knob("scheme", {"rays", "upwind", "published"},
+                   "how depths are carried: along the light's rays; from cell to cell, consistently or as the paper prints it",
+                   {}, {"upwind", "published"}),
+       choice_knob("density", {"auto", "exact", "volume"},
+                   "extinction along the rays: each Gaussian and the grid as it is, or all from one volume of that resolution",
+                   {}, {"exact"}),
+       choice_knob("storage", {"float", "half"}, "what volumes are kept in: 32 bits a value, or 16")});
   t.refuses = [](const Scene& scene) {
     const auto why = refuses_noise(scene);
     return why ? why : refuses_environment(scene);
