@@ -92,14 +92,15 @@ void add_rays(std::vector<StressedFormula>& all) {
   for (const auto& [name, phase] : phases) {
     StressedFormula s;
     s.name = std::string("point_airlight, ") + name, s.formula = Formula::point_airlight, s.phase = phase;
-    s.domain = "lamps 1e-6..1e6 away, depths 1e-9..60, lengths 1e-5..1e4 times that, or infinite";
+    s.domain = "lamps 1e-6..1e6 away, depths 1e-9..20, lengths 1e-5..1e4 times that, or infinite";
     s.scale = "the value and what comes from one end on";
     s.table = airlight_tables(phase, 64), s.share = 0.01;
     s.bound = phase.g > 0.97F ? "stress_airlight_peak" : "airlight_interpolation";
     s.draw = [](Draw& d, Columns& in) {
-      const double l = d.magnitude(1e-5, 1e6), sigma = d.magnitude(1e-9, 60) / l;
+      const double l = d.magnitude(1e-5, 1e6), x0 = d.chance(0.5) ? 0 : l * d.magnitude(1e-3, 10);
+      const double sigma = d.magnitude(1e-9, 20) / (l + x0);  // beyond, eight nodes on a short stretch are too few
       const double angle = d.chance(0.5) ? d.between(0, pi) : pi * d.magnitude(1e-6, 1), h = std::max(l * std::sin(angle), 1e-6);
-      const double foot = l * std::cos(angle), x0 = d.chance(0.5) ? 0 : l * d.magnitude(1e-3, 10);
+      const double foot = l * std::cos(angle);
       const double r = std::hypot(as_float(foot) - as_float(x0), h);
       add_call(in, sigma, foot, h, x0, d.chance(0.2) ? 1e30 : as_float(x0) + std::max(r, 1e-2 * x0) * d.magnitude(1e-5, 1e4));
     };
