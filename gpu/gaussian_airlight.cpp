@@ -40,8 +40,9 @@ class PanelLists {
     squares_.resize(static_cast<std::size_t>(count));
     for (const Square& s : squares) {
       for (int line = s.y / side_; line < std::min((s.y + s.side) / side_, lines); ++line) {
+        glm::ivec4* const row = squares_.data() + static_cast<std::ptrdiff_t>(columns_) * line;
         for (int column = s.x / side_; column < std::min((s.x + s.side) / side_, columns_); ++column)
-          squares_[static_cast<std::size_t>(column + columns_ * line)] = s.lists + glm::ivec4(count, count, 0, 0);
+          row[column] = s.lists + glm::ivec4(count, count, 0, 0);
       }
     }
     squares_.insert(squares_.end(), parts_.begin(), parts_.end());

@@ -17,7 +17,7 @@ void run(const MeanDepthLattice& a, StepRunner& r, const Progress& progress) {
     program.set("padding", padding);
     program.set("corner", l.corner);
     program.set("spacing", l.spacing);
-    r.each(program, static_cast<std::size_t>(nodes + padding), 64);
+    r.each(program, static_cast<std::size_t>(nodes) + static_cast<std::size_t>(padding), 64);
   }
 }
 
