@@ -20,10 +20,10 @@ static void lattice_depths(const MeanDepthLattice& a, const DepthLattice& lattic
   HWY_ALIGN float at[3][16];
   for (int n = begin; n < end; n += lanes) {
     for (int lane = 0; lane < lanes; ++lane) {
-      const int node = std::min(n + lane, end - 1);
+      const int node = std::min(n + lane, end - 1), line = node / lattice.nodes.x, layer = line / lattice.nodes.y;
       at[0][lane] = static_cast<float>(node % lattice.nodes.x);
-      at[1][lane] = static_cast<float>(node / lattice.nodes.x % lattice.nodes.y);
-      at[2][lane] = static_cast<float>(node / lattice.nodes.x / lattice.nodes.y);
+      at[1][lane] = static_cast<float>(line % lattice.nodes.y);
+      at[2][lane] = static_cast<float>(layer);
     }
     const glm::vec3& corner = lattice.corner;
     const Real3 place{fma(load(at[0]), lattice.spacing, corner.x), fma(load(at[1]), lattice.spacing, corner.y),
