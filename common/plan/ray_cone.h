@@ -12,7 +12,8 @@
 
 namespace airlight {
 
-// The rays of a square: those within an angle of the axis.
+// The rays of a square of `side` pixels whose upper left one is (x, y): those from the camera within an angle of the axis. Places
+// are seen from the camera [m]. Only + - * / and square roots: the same on every machine.
 struct RayCone {
   glm::dvec3 axis{0, 0, 1};
   double cos = 1, sin = 0;

@@ -16,7 +16,7 @@
 namespace airlight {
 namespace {
 
-constexpr Extent extent{48, 36};
+constexpr Extent extent{64, 48};
 
 class Promises : public testing::TestWithParam<TruthScene> {};
 

@@ -156,7 +156,7 @@ TEST(Reuse, OnePlanAfterAnotherIsAsOnANewBackend) {
   Stats stats;
   NoProgress progress;
   const auto results = [&](Backend& backend, const NamedCase& named) {
-    const Case c = named.make({72, 66});  // four tiles
+    const Case c = named.make({100, 75});
     upload(backend, c);
     backend.run(c.steps, stats, progress);
     std::vector<std::vector<float>> values;

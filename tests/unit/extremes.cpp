@@ -125,10 +125,10 @@ Scene extreme_medium(std::uint32_t seed) {
   return s;
 }
 
-// On OpenGL a scene in six: most of its time goes into compiling shaders. tests/stability draws more, and holds them to more.
+// On OpenGL a scene in three: most of its time goes into compiling shaders. tests/stability draws more, and holds them to more.
 class Extremes : public testing::TestWithParam<std::string> {
  protected:
-  std::uint32_t count(std::uint32_t scenes) const { return GetParam() == "gl" ? (scenes + 5) / 6 : scenes; }
+  std::uint32_t count(std::uint32_t scenes) const { return GetParam() == "gl" ? (scenes + 2) / 3 : scenes; }
 };
 
 void expect_finite(const std::string& backend, Scene (*make)(std::uint32_t), const RenderSettings& asked, std::uint32_t scenes) {
