@@ -49,21 +49,6 @@ FORMULA real average_gaussian_depth(real squared) {
   return 0.88622692545275801 * p / (q * fma(squared, real(2.0), real(1.0)));
 }
 
-// The same at a place among nodes at which it is known, x fastest, of so many an axis; the place is told in nodes. Linear an axis at a time; the
-// outermost hold outside.
-FORMULA real depth_in_lattice(table t, real nx, real ny, real nz, real x, real y, real z) {
-  real i;
-  real j;
-  real k;
-  real u;
-  real v;
-  real w;
-  grid_lookup_clamped(x, nx, i, u);
-  grid_lookup_clamped(y, ny, j, v);
-  grid_lookup_clamped(z, nz, k, w);
-  return weighted_cell(t, i, j, k, nx, ny, u, v, w);
-}
-
 // How much of a cosine lobe about a direction lies above the horizon of a normal, by the cosine between the two: 1/2 to 1. The table: by what
 // the cosine is multiplied to count its nodes, then 65 of them.
 FORMULA real environment_share(table t, real cosine) {

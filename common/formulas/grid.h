@@ -21,6 +21,20 @@ FORMULA void grid_lookup_clamped(real coordinate, real n, OUT(real) lower, OUT(r
   weight = c - lower;
 }
 
+// Between nodes, so many an axis, x fastest, at a place told in nodes; `layer`: of boxes of nodes one behind the other. The outermost hold outside.
+FORMULA real value_among_nodes(table t, int layer, real nx, real ny, real nz, real x, real y, real z) {
+  real i;
+  real j;
+  real k;
+  real u;
+  real v;
+  real w;
+  grid_lookup_clamped(x, nx, i, u);
+  grid_lookup_clamped(y, ny, j, v);
+  grid_lookup_clamped(z, nz, k, w);
+  return weighted_cell(t, i, j, fma(real(layer), nz, k), nx, ny, u, v, w);
+}
+
 // A grid of extinctions in a table: the numbers of cells nx, ny, nz, then (nx+2) (ny+2) (nz+2) values, x fastest: the grid in its ring of
 // zeros, halves (common/half.h) or, where `halves` is 0, floats. c in cells as from grid_coordinate(); exactly 0 from half a cell outside the box on.
 FORMULA real grid_extinction(table t, int halves, real cx, real cy, real cz) {

@@ -14,17 +14,5 @@ FORMULA void link_shares(real depth, real all, OUT(real) lost, OUT(real) given, 
 // A source volume in a table: nodes an axis, the largest value, then a box of values a channel, x fastest. Linear an axis at a time between nodes, of which
 // there are at least 2 an axis; the outermost hold outside.
 FORMULA real source_in_volume(table t, int channel, real x, real y, real z) {
-  real nx = element(t, 0);
-  real ny = element(t, 1);
-  real nz = element(t, 2);
-  real i;
-  real j;
-  real k;
-  real u;
-  real v;
-  real w;
-  grid_lookup_clamped(x, nx, i, u);
-  grid_lookup_clamped(y, ny, j, v);
-  grid_lookup_clamped(z, nz, k, w);
-  return weighted_cell(t + 4, i, j, fma(real(channel), nz, k), nx, ny, u, v, w);
+  return value_among_nodes(t + 4, channel, element(t, 0), element(t, 1), element(t, 2), x, y, z);
 }

@@ -64,7 +64,7 @@ FORMULA void call_environment(int formula, table t, int kind, INPUTS, RESULTS) {
     r[2] = environment_scattered_published(a[0]);
   }
   if (formula == 82) environment_scattered_to_surface(a[0], r[0], r[1]);
-  if (formula == 83) r[0] = depth_in_lattice(t + 1, real(5.0), real(4.0), real(3.0), a[0], a[1], a[2]);
+  if (formula == 83) r[0] = value_among_nodes(t + 1, 0, real(5.0), real(4.0), real(3.0), a[0], a[1], a[2]);
   if (formula == 79) environment_reflection(t, a[0], a[1], a[2], r[0], r[1], r[2]);
 }
 

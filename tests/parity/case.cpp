@@ -10,6 +10,7 @@ std::vector<NamedCase> all_cases() {
                           shadow_planes_cases(),
                           view_transmittance_cases(),
                           surface_airlight_cases(),
+                          mean_depth_lattice_cases(),
                           mean_depth_cases(),
                           environment_light_cases(),
                           surface_shading_cases(),

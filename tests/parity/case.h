@@ -39,6 +39,7 @@ std::span<const NamedCase> surface_airlight_cases();
 std::span<const NamedCase> environment_light_cases();
 std::span<const NamedCase> surface_shading_cases();
 std::span<const NamedCase> homogeneous_airlight_cases();
+std::span<const NamedCase> mean_depth_lattice_cases();
 std::span<const NamedCase> mean_depth_cases();
 std::span<const NamedCase> density_injection_cases();
 std::span<const NamedCase> optical_depth_propagation_cases();

@@ -30,6 +30,18 @@ Scene test_gaussian_scene(int count) {
 
 std::vector<GaussianDensity> test_gaussians(int count) { return gaussians_of(test_gaussian_scene(count)); }
 
+std::vector<DepthLattice> test_lattices(bool one) {
+  std::vector<DepthLattice> both{{{-6, -1.5F, -12}, 0.7F, {18, 2, 16}, 0}, {{-1, -1.2F, -5}, 0.25F, {9, 10, 7}, 0}};
+  for (DepthLattice& l : both) l.nodes = one ? glm::ivec3(1) : l.nodes;
+  both[1].first = both[0].nodes.x * both[0].nodes.y * both[0].nodes.z;
+  return both;
+}
+
+std::size_t lattice_floats(const std::vector<DepthLattice>& all) {
+  const glm::ivec3& last = all.back().nodes;
+  return static_cast<std::size_t>(all.back().first + last.x * last.y * last.z + depth_lattice_padding);
+}
+
 GridMedium test_grid() {
   auto voxels = std::make_shared<VoxelGrid>();
   voxels->size = {12, 9, 14};

@@ -93,7 +93,7 @@ enum class Formula : int {
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
   surface_airlight_psf = 81,    // lambda, cosine; the table is one of surface_psf_tables()
   environment_scattered_to_surface = 82,  // mean depth of the rest -> of the homogeneous part, of the rest
-  depth_in_lattice = 83,                  // x, y, z; the table: a number, then 5 x 4 x 3 nodes and padding
+  value_among_nodes = 83,                  // x, y, z; the table: a number, then 5 x 4 x 3 nodes and padding
   half_angles = 90,                       // normal, to the light, to the viewer -> of the half vector, from it, around it
   brdf_reflection = 91,                   // the same; the table: of a reflectance -> red, green, blue
   brdf_environment = 92,                  // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue

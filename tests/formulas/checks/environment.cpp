@@ -222,7 +222,7 @@ Measured measure_lattice(const Run& run) {
   table.resize(table.size() + depth_lattice_padding);
   Columns in;
   for (int i = 0; i < 4000; ++i) add_call(in, random.number(-2, 7), random.number(-2, 6), random.number(-2, 5));
-  const Columns found = run({Formula::depth_in_lattice, in, {}, table});
+  const Columns found = run({Formula::value_among_nodes, in, {}, table});
   Measured m;
   for (std::size_t i = 0; i < in[0].size(); ++i) {
     const double truth = value(std::clamp(in[0][i], 0.0, 4.0), std::clamp(in[1][i], 0.0, 3.0), std::clamp(in[2][i], 0.0, 2.0));
@@ -244,7 +244,7 @@ void add_environment_checks(std::vector<Check>& checks) {
   checks.push_back({"environment_scattered", measure_scattered, "environment_scattered_double", "environment_scattered"});
   checks.push_back({"environment_scattered_to_surface", measure_scattered_to_surface, "environment_scattered_double",
                     "environment_scattered"});
-  checks.push_back({"depth_in_lattice", measure_lattice, "grid_value_double", "depth_lookup"});
+  checks.push_back({"value_among_nodes", measure_lattice, "grid_value_double", "depth_lookup"});
   checks.push_back({"environment_reflection", measure_reflection, "environment_reflection_double", "environment_reflection"});
 }
 
