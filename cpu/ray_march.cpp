@@ -52,7 +52,8 @@ struct March {
   HWY_INLINE Mask ended() const;
   HWY_NOINLINE void stretch(Real begin, Real end, bool all);  // asked three times, a half of what there is to compile
   HWY_INLINE Local local(const Real3& p, bool all) const;
-  HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
+  HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, const Local& here);
+  HWY_INLINE void add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
 };
 
 HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays, float* floats)
@@ -132,9 +133,47 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
   return here;
 }
 
-// Light number k, scattered in the step [from, to] or in a lit part of one: of optical depth tau, behind `before_it`. Nothing
-// where to <= from.
-HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here) {
+// Light number k, scattered in the step [from, to] or in a lit part of one, where the medium is `here`: behind `before_it`.
+// Nothing where to <= from. Beside a lamp, where light and phase function change much within a step, in parts that look up the
+// medium anew.
+HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_it, const Local& here) {
+  Real s = 0.0, c = 1.0, sine = 0.0, cosine = 1.0, parts = 1.0, foot = 0.0, h = 1.0;
+  if (uneven && !a.lights[k].directional) {
+    const float* of_light = scratch + static_cast<std::ptrdiff_t>(k) * floats_a_light;
+    foot = load(of_light + foot_at), h = load(of_light + h_at);
+    const Real before = from - foot, after = to - foot;
+    const Real ra2 = fma(before, before, h * h), rb2 = fma(after, after, h * h);
+    const Mask wide = going && (from < to) && may_have_parts(to - from, min(ra2, rb2));
+    if (any_lane(wide)) {
+      const Real over_ra = 1.0 / sqrt(ra2), over_rb = 1.0 / sqrt(rb2);
+      s = before * over_ra, c = h * over_ra;
+      parts = select(wide, step_parts(s, c, after * over_rb, h * over_rb, sine, cosine), 1.0);
+    }
+  }
+  const bool in_parts = any_lane(parts > 1.0);
+  Real begin = from;
+  for (int done = 1;; ++done) {
+    const Mask more = parts > static_cast<float>(done);
+    const bool any_more = any_lane(more);
+    Real end = to;
+    if (any_more) end = select(more, end_of_part(sine, cosine, s, c, begin, to, foot, h, s, c), to);
+    Local there = here;
+    if (in_parts) {
+      const Mask whole = parts <= 1.0;
+      there = local(along({0.0, 0.0, 0.0}, d, (begin + end) * 0.5), true);
+      there.extinction = select(whole, here.extinction, there.extinction);
+      for (int i3 = 0; i3 < 3; ++i3) there.scattering[i3] = select(whole, here.scattering[i3], there.scattering[i3]);
+    }
+    const Real tau = there.extinction * (end - begin);
+    add_part(k, begin, end, before_it, tau, there);
+    if (!any_more) return;
+    before_it += tau;
+    begin = end;
+  }
+}
+
+// A part of a step, or all of it: of optical depth tau.
+HWY_INLINE void March::add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here) {
   const Light& light = a.lights[k];
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
@@ -209,11 +248,10 @@ HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
     if (scatters) {
       for (std::size_t l = 0; l < a.lights.size(); ++l) {
         if (!lit) {
-          add_light(l, from, to, front, tau, here);
+          add_light(l, from, to, front, here);
         } else {
           lit.each(l, from, to, [&](Real begin_lit, Real end_lit) HWY_ATTR {
-            add_light(l, begin_lit, end_lit, fma(here.extinction, begin_lit - from, front),
-                      here.extinction * (end_lit - begin_lit), here);
+            add_light(l, begin_lit, end_lit, fma(here.extinction, begin_lit - from, front), here);
           });
         }
       }

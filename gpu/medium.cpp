@@ -90,12 +90,17 @@ TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& 
 }
 
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,
-                       LightDepth light_depth, std::size_t lights, std::int64_t most) {
+                       LightDepth light_depth, std::size_t lights, std::int64_t most, int parts) {
   const auto count = static_cast<std::int64_t>(gaussians.size()), n = static_cast<std::int64_t>(light_steps);
-  // Its depth, and the medium where the light is near.
-  LoopBudget budget{(light_depth == LightDepth::volume ? 4 : 2 + count) + count, 1};
-  if (count > 0 && light_depth == LightDepth::march) budget.a_light += n * (1 + count);
-  if (grid && light_depth != LightDepth::volume) budget.a_light += n + 3;
+  // A place's depth, and the medium where the light is near.
+  std::int64_t a_place = (light_depth == LightDepth::volume ? 4 : 2 + count) + count;
+  if (count > 0 && light_depth == LightDepth::march) a_place += n * (1 + count);
+  if (grid && light_depth != LightDepth::volume) a_place += n + 3;
+  // Each part, and what it passes by on its way there.
+  const std::int64_t passed = parts > 1 ? parts * (2 + count) : 0;
+  const auto of_light = [&] { return parts * a_place + passed; };
+  while (parts > 1 && of_light() + count + 2 > most) parts /= 2;
+  LoopBudget budget{of_light(), 1, parts};
   if (budget.a_light + count + 2 > most) {
     throw MachineError("OpenGL: " + std::to_string(light_steps) + " steps to a light through " + std::to_string(count) +
                        " Gaussians are more loops than a shader may run, expected fewer light_steps or shadow=analytic");

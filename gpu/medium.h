@@ -34,8 +34,9 @@ struct LoopBudget {
   static constexpr std::int64_t most = 50000;
   // Of loops over lit parts: it runs so many rays as one at most, and they go round where one of them does.
   static constexpr std::int64_t rays_at_once = 16;
-  std::int64_t a_light;  // rounds for one place and one light
+  std::int64_t a_light;  // rounds for one step and one light
   int lights;            // how many lights fit, at least 1
+  int parts;             // how many of a step's parts fit, at least 1
 
   // How many of a ray's lit parts a dispatch may take where half of its rounds are left for them, and each costs so many. Of one
   // part no loop goes round more often than without.
@@ -43,8 +44,8 @@ struct LoopBudget {
     return static_cast<int>(std::clamp<std::int64_t>(most / 2 / (rays_at_once * (rounds + 3)), 1, std::max(all, 1)));
   }
 };
-// Of `most` rounds. Throws MachineError where one light alone does not fit.
+// Of `most` rounds; parts: into how many a light may cut a step. Throws MachineError where one light alone does not fit.
 LoopBudget loop_budget(const std::vector<GaussianDensity>&, const GridDensity&, int light_steps, LightDepth, std::size_t lights,
-                       std::int64_t most = LoopBudget::most);
+                       std::int64_t most = LoopBudget::most, int parts = 1);
 
 }  // namespace airlight

@@ -40,7 +40,10 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
 
   const auto all_lights = static_cast<int>(a.lights.size());
   const std::int64_t most = shadowed ? LoopBudget::most / 2 : LoopBudget::most;
-  const LoopBudget budget = loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, shadowed ? 1 : a.lights.size(), most);
+  const bool lamps = std::any_of(a.lights.begin(), a.lights.end(), [](const Light& light) { return !light.directional; });
+  const int most_parts = lamps && (a.grid || !a.gaussians.empty()) ? 8 : 1;  // step_parts()
+  const LoopBudget budget =
+      loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, shadowed ? 1 : a.lights.size(), most, most_parts);
   const std::int64_t a_step = 2 + static_cast<std::int64_t>(a.gaussians.size()) + (a.sources ? 4 : 0) +
                               (budget.a_light + (shadowed ? 1 : 0)) * budget.lights;
   const int all_steps = 3 * a.steps;
@@ -48,11 +51,15 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   const auto march = [&](int first_light, int end_light, bool last, auto&& dispatch) {
     program.set("first_light", first_light);
     program.set("end_light", end_light);
-    program.set("last_light", last ? 1 : 0);
-    for (int first = 0; first < all_steps; first += steps) {
-      program.set("first_step", first);
-      program.set("end_step", std::min(first + steps, all_steps));
-      dispatch();
+    for (int part = 0; part < most_parts; part += budget.parts) {
+      program.set("first_part", part);
+      program.set("end_part", part + budget.parts);
+      program.set("last_light", last && part + budget.parts == most_parts ? 1 : 0);
+      for (int first = 0; first < all_steps; first += steps) {
+        program.set("first_step", first);
+        program.set("end_step", std::min(first + steps, all_steps));
+        dispatch();
+      }
     }
   };
   if (!shadowed) {

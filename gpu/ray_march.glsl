@@ -21,13 +21,15 @@ layout(std140, binding = 2) uniform Knobs {
   int steps;
 };
 
-// One dispatch takes some of the steps, counted over the three stretches of a ray, and some of the lights; or of one light some lit parts. Between dispatches the airlight image holds
-// what is summed and the depth in front, the transmittance image that within Gaussians and grid.
+// One dispatch takes some of the steps, counted over the three stretches of a ray, some of the lights, or of one light some lit parts, and some of the parts that a light
+// cuts a step into. Between dispatches the airlight image holds what is summed and the depth in front, the transmittance image that within Gaussians and grid.
 uniform int first_step;
 uniform int end_step;
 uniform int first_light;
 uniform int end_light;
-uniform int last_light;  // 1: no lights come after these
+uniform int last_light;  // 1: no lights and no parts come after these
+uniform int first_part;
+uniform int end_part;
 
 #ifdef WITH_OPTICAL_DEPTH
 const bool whole = true;  // it is wanted also behind where the ray ends
@@ -40,7 +42,7 @@ bool is_first_of_light() { return first_lit == 0; }
 #else
 bool is_first_of_light() { return true; }
 #endif
-bool is_first() { return first_light == 0 && is_first_of_light(); }
+bool is_first() { return first_light == 0 && first_part == 0 && is_first_of_light(); }
 
 // The ray on its way.
 ivec2 pixel;
@@ -94,8 +96,8 @@ Local local_at(vec3 p, bool all) {
 
 bool uneven;  // this stretch has Gaussians and grid
 
-// Light number k, scattered in the step [from, to] or in a lit part of one: of optical depth tau, behind `before_it`.
-void add_light(int k, float from, float to, float before_it, float tau, Local here) {
+// A part of a step, or all of it: of optical depth tau, behind `before_it`.
+void add_part(int k, float from, float to, float before_it, float tau, Local here) {
   vec4 vector_radius = light_values[2 * k];
   vec4 power_directional = light_values[2 * k + 1];
   vec3 v = vector_radius.xyz;
@@ -140,7 +142,45 @@ void add_light(int k, float from, float to, float before_it, float tau, Local he
 #endif
 }
 
-void add_lights(float from, float to, float tau, Local here) {
+// Light number k, scattered in the step [from, to] or in a lit part of one, as cpu/ray_march.cpp tells.
+void add_light(int k, float from, float to, float before_it, Local here) {
+  float parts = 1.0;
+  float s;
+  float c;
+  float sine;
+  float cosine;
+  float foot;
+  float h;
+  if (uneven && light_values[2 * k + 1].w == 0.0) {
+    beside_ray(light_values[2 * k], d, foot, h);
+    float before = from - foot;
+    float after = to - foot;
+    float ra2 = fma(before, before, h * h);
+    float rb2 = fma(after, after, h * h);
+    if (may_have_parts(to - from, min(ra2, rb2))) {
+      float over_ra = 1.0 / sqrt(ra2);
+      float over_rb = 1.0 / sqrt(rb2);
+      s = before * over_ra;
+      c = h * over_ra;
+      parts = step_parts(s, c, after * over_rb, h * over_rb, sine, cosine);
+    }
+  }
+  float begin = from;
+  for (int part = 0; part < int(parts) && part < end_part; ++part) {
+    float end = to;
+    Local there = here;
+    if (parts > 1.0) {
+      if (float(part + 1) < parts) end = end_of_part(sine, cosine, s, c, begin, to, foot, h, s, c);
+      there = local_at(d * ((begin + end) * 0.5), true);
+    }
+    float tau = there.extinction * (end - begin);
+    if (part >= first_part) add_part(k, begin, end, before_it, tau, there);
+    before_it += tau;
+    begin = end;
+  }
+}
+
+void add_lights(float from, float to, Local here) {
 #ifdef WITH_LIT
   pass_lit(from);
   for (int n = lit_at; n < lit_end; ++n) {
@@ -149,10 +189,10 @@ void add_lights(float from, float to, float tau, Local here) {
     float begin_lit = max(lit.x, from);
     float end_of_lit = min(lit.y, to);
     if (begin_lit < end_of_lit)
-      add_light(first_light, begin_lit, end_of_lit, fma(here.extinction, begin_lit - from, front), here.extinction * (end_of_lit - begin_lit), here);
+      add_light(first_light, begin_lit, end_of_lit, fma(here.extinction, begin_lit - from, front), here);
   }
 #else
-  for (int k = first_light; k < end_light; ++k) add_light(k, from, to, front, tau, here);
+  for (int k = first_light; k < end_light; ++k) add_light(k, from, to, front, here);
 #endif
 }
 
@@ -181,7 +221,7 @@ void stretch(int base, float begin, float end, bool all) {
     Local here = local_at(d * ((from + to) * 0.5), all);
     float tau = here.extinction * size;
     if (going) {
-      if (here.extinction > 0.0) add_lights(from, to, tau, here);
+      if (here.extinction > 0.0) add_lights(from, to, here);
       if (is_first()) sum += size * mean_transmittance(tau) * transmittance(front) * here.emission;
     }
     front += tau;
@@ -214,7 +254,7 @@ void main() {
     within = imageLoad(transmittance_image, at).x;
   }
 #ifdef WITH_PER_LIGHT
-  if (first_step == 0 && is_first_of_light()) {
+  if (first_step == 0 && first_part == 0 && is_first_of_light()) {
     for (int k = first_light; k < end_light; ++k) imageStore(per_light_image, ivec3(pixel, k), vec4(0.0));
   }
 #endif

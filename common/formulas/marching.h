@@ -81,7 +81,8 @@ FORMULA real mean_phase(int kind, real g, real sin_a, real cos_a, real sin_b, re
   return (7.0 * ends + 32.0 * quarters + 12.0 * phase_value(kind, g, -s2)) * (1.0 / 90.0);
 }
 
-// The same over a step, whose ends lie to_a and to_b from the foot: halfway where the angle is small, in four parts where it is wide.
+// The same over a step, whose ends lie to_a and to_b from the foot: halfway where the angle is small beside phase_width(), by Simpson's rule where it is larger,
+// in four parts where it is wide.
 FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb, real h) {
   if (kind == 0) return phase_isotropic();
   real over_ra = 1.0 / ra;
@@ -94,11 +95,12 @@ FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb
   real c2;
   halfway(s0, c0, s4, c4, s2, c2);
   real result = phase_value(kind, g, -s2);
-  real cos_angle = fma(s0, s4, c0 * c4);
-  mask turning = cos_angle < 0.98;
+  real width = phase_width(kind, g);
+  real turn = (1.0 - fma(s0, s4, c0 * c4)) / (width * width);
+  mask turning = turn > 0.004;
   if (any_lane(turning)) {
-    result = select(turning, mean_phase(kind, g, s0, c0, s4, c4), result);
-    mask wide = cos_angle < 0.5;
+    result = select(turning, (4.0 * result + phase_value(kind, g, -s0) + phase_value(kind, g, -s4)) * (1.0 / 6.0), result);
+    mask wide = turn > 0.125;
     if (any_lane(wide)) {
       real s1;
       real c1;
@@ -111,6 +113,36 @@ FORMULA real step_phase(int kind, real g, real to_a, real to_b, real ra, real rb
     }
   }
   return result;
+}
+
+// A step near a light is cut into 1, 2, 4 or 8 parts of equal angle, as the light sees them, of a quarter of a radian at most where eight are enough. The ends' angles
+// are told by sines s0, s1 and cosines; that of a part by `sine` and `cosine`.
+FORMULA real step_parts(real s0, real c0, real s1, real c1, OUT(real) sine, OUT(real) cosine) {
+  real s = s1 * c0 - s0 * c1;
+  real c = fma(s0, s1, c0 * c1);
+  real parts = 1.0;
+  for (int halvings = 0; halvings < 3; ++halvings) {
+    mask wide = c < 0.97;
+    if (!any_lane(wide)) break;
+    s = select(wide, sqrt(max(fma(c, -0.5, 0.5), 0.0)), s);
+    c = select(wide, sqrt(max(fma(c, 0.5, 0.5), 0.0)), c);
+    parts = select(wide, parts * 2.0, parts);
+  }
+  sine = s;
+  cosine = c;
+  return parts;
+}
+
+// Whether a step may have more than one: never one that is shorter beside its distance from the light. squared: the least distance, squared.
+FORMULA mask may_have_parts(real length, real squared) {
+  return length * length > 0.058 * squared;
+}
+
+// The end of a part that begins in the direction (s, c): that direction turned by the part's angle, and its place on the ray, in the rest [a, b] of the step.
+FORMULA real end_of_part(real sine, real cosine, real s, real c, real a, real b, real foot, real h, OUT(real) s_end, OUT(real) c_end) {
+  s_end = fma(s, cosine, c * sine);
+  c_end = fma(c, cosine, -s * sine);
+  return select(c_end > 0.0, min(max(fma(h, s_end / max(c_end, 1e-18), foot), a), b), b);
 }
 
 // Light that arrives at the camera from a step of optical depth tau behind `front` of it, for a sample at share u of the step behind `beside` on its

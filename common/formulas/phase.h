@@ -54,3 +54,14 @@ FORMULA real phase_value(int kind, real g, real mu) {
   if (kind == 5) return phase_mie_murky(mu);
   return phase_isotropic();
 }
+
+// The angle [rad] within which a phase function changes much: 3 / width^2 is its second derivative at the peak, beside the peak; no wider than sqrt(2).
+FORMULA real phase_width(int kind, real g) {
+  if (kind == 2 || kind == 3) {
+    real a = max(abs(g), 0.25);
+    return (1.0 - a) / sqrt(a);
+  }
+  if (kind == 4) return 0.87;
+  if (kind == 5) return 0.43;
+  return 1.4;
+}

@@ -13,13 +13,12 @@ namespace {
 
 constexpr double most_cells = 128;  // along an edge of a volume that nobody asked for
 constexpr int finest_cells = 512;
+constexpr double small_volume = 64;  // cells along an edge: as good as free
 
-// Cells along the longest edge of the box about the Gaussians, so many in the radius of the smallest that matters.
+// Small volumes have two thirds more than are asked for: beside a lamp in one bright pixel three cells a radius leave 2.5 %.
 double cells_for(const Scene& scene, const std::vector<GaussianDensity>& gaussians, double cells_a_radius) {
-  double radius = 1e300;
-  for (const GaussianDensity& g : gaussians) radius = std::min(radius, smooth_radius(g));
-  const double edge = 2 * medium_box(scene, 2).cell;
-  return std::ceil(cells_a_radius * edge / radius);
+  const double asked = cells_for_radius(scene, gaussians, cells_a_radius);
+  return std::max(asked, std::min(std::ceil(asked * 5 / 3), small_volume));
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "common/plan/light_volumes.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/algorithms/voxel_table.h"
 #include "common/error.h"
+#include "common/plan/gaussian_shadows.h"
 
 namespace airlight {
 
@@ -12,6 +15,13 @@ namespace {
 constexpr std::size_t most_floats = std::size_t{1} << 28U;  // of all volumes of a frame: 1 GiB
 
 }  // namespace
+
+double cells_for_radius(const Scene& scene, const std::vector<GaussianDensity>& gaussians, double cells_a_radius) {
+  double radius = 1e300;
+  for (const GaussianDensity& g : gaussians) radius = std::min(radius, smooth_radius(g));
+  const double edge = 2 * medium_box(scene, 2).cell;
+  return std::ceil(cells_a_radius * edge / radius);
+}
 
 Buffer add_density_injection(FramePlan& frame, const MediumBox& box, const Density& all, float half_unit, std::uint32_t id) {
   const Buffer extinction{{id}, sizeof(float) * voxel_table_floats(box.cells, half_unit > 0)};

@@ -23,6 +23,9 @@ struct LightVolumes {
   std::vector<DepthVolume> volumes;
 };
 
+// Cells along the longest edge of the box about a scene's medium, so many in the radius of the smallest Gaussian that matters.
+double cells_for_radius(const Scene&, const std::vector<GaussianDensity>&, double cells_a_radius);
+
 // The step that puts `all`, seen from the box's corner, on the box's grid. half_unit: GridDensity's.
 Buffer add_density_injection(FramePlan&, const MediumBox&, const Density& all, float half_unit, std::uint32_t id);
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/error.h"
+#include "common/plan/gaussian_shadows.h"
 #include "common/plan/voxels.h"
 
 namespace airlight {
@@ -26,6 +27,15 @@ bool holds_in_a_grid(const Medium& medium) {
 
 glm::vec3 grid_albedo(const Medium& medium) { return medium.grid ? medium.grid->albedo : medium.gaussians.front().albedo; }
 
+// What is looked up along rays needs more cells than depths, which are smoother: three in the radius of the smallest Gaussian
+// that matters, within reason.
+MediumBox fine_box(const Scene& scene, const MediumBox& box) {
+  constexpr double cells_a_radius = 3, most_times = 2;
+  const int cells = std::max({box.cells.x, box.cells.y, box.cells.z});
+  const double wanted = cells_for_radius(scene, gaussians_of(scene, box.corner), cells_a_radius);
+  return wanted <= cells ? box : medium_box(scene, static_cast<int>(std::min(wanted, most_times * cells)));
+}
+
 }  // namespace
 
 MediumVolumes::MediumVolumes(FramePlan& frame, std::uint32_t first_id) : frame_(frame) {
@@ -41,12 +51,13 @@ MediumVolumes::MediumVolumes(FramePlan& frame, std::uint32_t first_id) : frame_(
     throw InputError(
         "setting density: \"volume\" has one albedo and no emission, the scene's Gaussians have more; expected auto or exact");
   injected_ = box_ && can && (density == "volume" || (density == "auto" && medium.gaussians.size() > few_gaussians));
+  fine_ = injected_ && !cells_ && density == "auto" ? fine_box(frame.scene, box_) : box_;
   if (medium.grid) {
     frame.plan.uploads.push_back(voxels_of(*medium.grid, first_id));
     native_ = frame.plan.uploads.back().buffer;
   }
   if (box_ && (injected_ || (cells_ && !frame.lights.empty()))) {
-    extinction_ = add_density_injection(frame, box_, as_given(box_.corner), half_unit(), first_id + 1);
+    extinction_ = add_density_injection(frame, fine_, as_given(fine_.corner), half_unit(), first_id + 1);
   } else if (box_) {
     frame.plan.skips.push_back({Rule::no_injection, "density_injection",
                                 medium.gaussians.size() <= few_gaussians
@@ -73,20 +84,20 @@ float MediumVolumes::half_unit() const {
   return static_cast<float>(std::exp2(std::clamp(std::ceil(std::log2(std::max(most, 1e-30))) - 14, -100.0, 100.0)));
 }
 
-Density MediumVolumes::in_box(const glm::dvec3& origin) const {
-  Density d{{}, extinction_, box_density(box_, grid_albedo(frame_.scene.medium), origin)};
+Density MediumVolumes::injected(const glm::dvec3& origin) const {
+  Density d{{}, extinction_, box_density(fine_, grid_albedo(frame_.scene.medium), origin)};
   d.grid.half_unit = half_unit();
   return d;
 }
 
 Density MediumVolumes::to_march() const {
   const glm::dvec3& camera = frame_.scene.camera.position;
-  return injected_ ? in_box(camera) : as_given(camera);
+  return injected_ ? injected(camera) : as_given(camera);
 }
 
 // How many lookups between two nodes of a light's ray the grid is worth.
 int MediumVolumes::samples(bool in_cells) const {
-  double finest = box_.cell;
+  double finest = fine_.cell;
   if (const auto& grid = frame_.scene.medium.grid; grid && !in_cells) {
     for (int axis = 0; axis < 3; ++axis) finest = std::min(finest, glm::length(glm::dvec3(grid->transform[axis])));
   }
@@ -101,7 +112,7 @@ LightVolumes MediumVolumes::propagate(std::uint32_t first_id) const {
   }
   const DepthScheme scheme = frame_.request.knobs.choice("scheme") == "published" ? DepthScheme::published : DepthScheme::upwind;
   return add_light_volumes(frame_, box_,
-                           {.from = cells_ || injected_ ? in_box(box_.corner) : as_given(box_.corner),
+                           {.from = cells_ || injected_ ? injected(box_.corner) : as_given(box_.corner),
                             .cells = cells_,
                             .scheme = scheme,
                             .samples = samples(cells_ || injected_),

@@ -22,14 +22,15 @@ class MediumVolumes {
 
  private:
   Density as_given(const glm::dvec3& origin) const;
-  Density in_box(const glm::dvec3& origin) const;
+  Density injected(const glm::dvec3& origin) const;
   float half_unit() const;
   int samples(bool in_cells) const;
 
   FramePlan& frame_;
-  MediumBox box_;
-  bool cells_ = false;     // the volumes are those of the box's cells
-  bool injected_ = false;  // rays are marched through them
+  MediumBox box_;          // about the volumes toward the lights
+  MediumBox fine_;         // of the extinction's cells
+  bool cells_ = false;     // the volumes are those of the same cells
+  bool injected_ = false;  // rays are marched through the extinction's cells
   bool halves_ = false;    // and what they and the volumes hold is kept in 16 bits
   Buffer native_;          // the scene's grid
   Buffer extinction_;

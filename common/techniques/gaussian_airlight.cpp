@@ -111,8 +111,10 @@ Technique gaussian_airlight() {
                    "volumes for more than 16 Gaussians, unless these are too small for 128 cells an edge; published: the paper's "
                    "airlight, one sample a Gaussian and the light's way by its centre, without shadows of surfaces",
                    {"exact", "volume"}, {"published"}),
-       number_knob("light_cells", "3", 0.5, 16, "cells of those volumes in the radius of the smallest Gaussian",
-                   {"1.5", "3", "6"}),
+       number_knob(
+           "light_cells", "3", 0.5, 16,
+           "cells of those volumes in the radius of the smallest Gaussian; up to two thirds more in volumes of 64 along an edge",
+           {"1.5", "3", "6"}),
        table_nodes_knob()});
   t.refuses = refuses;
   t.plan = plan;

@@ -137,6 +137,17 @@ FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULT
   if (formula == 34) {
     r[0] = step_phase(kind, g, a[0], a[1], sqrt(fma(a[0], a[0], a[2] * a[2])), sqrt(fma(a[1], a[1], a[2] * a[2])), a[2]);
   }
+  if (formula == 39) {
+    real ra2 = fma(a[0], a[0], a[2] * a[2]);
+    real rb2 = fma(a[1], a[1], a[2] * a[2]);
+    real s = a[0] / sqrt(ra2);
+    real c = a[2] / sqrt(ra2);
+    real sine;
+    real cosine;
+    r[0] = step_parts(s, c, a[1] / sqrt(rb2), a[2] / sqrt(rb2), sine, cosine);
+    r[1] = end_of_part(sine, cosine, s, c, a[0], a[1], real(0.0), a[2], s, c);
+    r[2] = select(may_have_parts(a[1] - a[0], min(ra2, rb2)), real(1.0), real(0.0));
+  }
   if (formula == 32) r[0] = step_transmittance(a[0], a[1], a[2], a[3]);
   if (formula == 49) r[0] = weighted_half_cell(t + 1, a[0], a[1], a[2], real(31.0), real(32.0), a[3], a[4], a[5]);
   if (formula == 40) r[0] = depth_in_volume(t, kind, 0, a[0], a[1], a[2]);

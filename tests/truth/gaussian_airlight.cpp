@@ -177,6 +177,30 @@ TEST(GaussianSquares, OfManySmallGaussiansAreRight) {
   }
 }
 
+// A picture so small that one bright pixel is most of its error: a ray close to a lamp within Gaussians, which the scenes' own
+// size misses.
+TEST(GaussiansBesideALamp, AreRightByDefault) {
+  constexpr Extent extent{48, 36};
+  const int threads = static_cast<int>(std::thread::hardware_concurrency());
+  for (const TruthScene& named : gaussian_scenes()) {
+    if (named.name != "light_in_blob" && named.name != "pierced_tube") continue;
+    const Scene scene = named.make();
+    NoProgress progress;
+    const ReferenceFrame truth = reference_frame(scene, extent, {1e-4, true, Indirect::unbounded}, true, threads, progress);
+    for (const char* backend : {"cpu", "gl"}) {
+      Renderer renderer({.backend = backend});
+      for (const char* technique : {"gaussian-airlight", "opacity-propagation"}) {
+        RenderSettings settings;
+        settings.technique = technique;
+        settings.resolution = extent;
+        const double error = relative_error(renderer.render(scene, settings).image("beauty"), truth, parts[0]).off_edges;
+        std::printf("%-3s %s, %s: relative RMSE %.3f %%\n", backend, technique, std::string(named.name).c_str(), 100 * error);
+        EXPECT_FALSE(!(error < tolerance("truth_beside_a_lamp"))) << backend;
+      }
+    }
+  }
+}
+
 // The CPU takes tiles that nothing shades in another way than those with shadows: here the left one of three.
 TEST(GaussianTiles, WithAndWithoutShadowsAreRight) {
   Scene scene;

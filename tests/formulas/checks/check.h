@@ -62,6 +62,7 @@ enum class Formula : int {
   step_transmittance = 32,  // front, tau, share, beside
   grid_bound = 33,          // coordinates, numbers of cells; the table: numbers of bricks, then their bounds
   step_phase = 34,          // ends from the foot, h
+  step_parts = 39,          // the same -> number, the first cut's place from the foot, whether a step may have parts (1 or 0)
   depth_in_volume = 40,     // place; the table as depth_in_volume() takes it; the phase's kind is the volume's
   cube_face = 41,           // place -> a, b, c
   sharpened_depth = 42,     // before, here, after
@@ -93,7 +94,7 @@ enum class Formula : int {
   environment_scattered = 80,   // depths of the homogeneous part and of the rest -> of each, published of the first alone
   surface_airlight_psf = 81,    // lambda, cosine; the table is one of surface_psf_tables()
   environment_scattered_to_surface = 82,  // mean depth of the rest -> of the homogeneous part, of the rest
-  value_among_nodes = 83,                  // x, y, z; the table: a number, then 5 x 4 x 3 nodes and padding
+  value_among_nodes = 83,                 // x, y, z; the table: a number, then 5 x 4 x 3 nodes and padding
   half_angles = 90,                       // normal, to the light, to the viewer -> of the half vector, from it, around it
   brdf_reflection = 91,                   // the same; the table: of a reflectance -> red, green, blue
   brdf_environment = 92,                  // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue

@@ -81,11 +81,36 @@ Measured measure_means(const Run& run, bool of_distance) {
   return m;
 }
 
-// The mean phase function, beside itself and a tenth of the isotropic one, for steps of every size; |g| up to 0.6.
+// Parts are as many as they should be and of one angle: where the first ends, beside that angle.
+Measured measure_parts(const Run& run) {
+  Random random(stream + 5);
+  Columns in;
+  for (int i = 0; i < 20000; ++i) {
+    const double h = random.magnitude(1e-3, 1e2), a = random.number(-10, 10);
+    add_call(in, a, a + random.magnitude(1e-3, 30), h);
+  }
+  const Columns found = run({Formula::step_parts, in});
+  Measured m;
+  for (std::size_t i = 0; i < in[0].size(); ++i) {
+    const double a = in[0][i], b = in[1][i], h = in[2][i], from = std::atan2(a, h), all = std::atan2(h * (b - a), h * h + a * b);
+    double parts = 1;
+    while (parts < 8 && std::cos(all / parts) < 0.97) parts *= 2;
+    const bool close =
+        std::fabs(std::cos(2 * all / found[0][i]) - 0.97) < 1e-5 || std::fabs(std::cos(all / found[0][i]) - 0.97) < 1e-5;
+    const bool right = (close || found[0][i] == parts) && (found[0][i] == 1 || found[2][i] == 1);
+    const double part = all / found[0][i];
+    const double error = found[0][i] > 1 ? std::fabs(std::atan2(found[1][i], h) - from - part) / part : 0;  // else it is unasked
+    m.add(right && found[1][i] <= b ? error : HUGE_VAL, [&] { return place({{"a", a}, {"b", b}, {"h", h}}); });
+  }
+  return m;
+}
+
+// The mean phase function, beside itself and a tenth of the isotropic one, for steps of every size; |g| up to 0.7.
 Measured measure_phase(const Run& run) {
   Measured m;
-  for (const Phase& phase : {Phase{PhaseKind::isotropic, 0}, Phase{PhaseKind::rayleigh, 0}, Phase{PhaseKind::mie_hazy, 0},
-                             Phase{PhaseKind::henyey_greenstein, 0.6}, Phase{PhaseKind::cornette_shanks, -0.5}}) {
+  for (const Phase& phase :
+       {Phase{PhaseKind::isotropic, 0}, Phase{PhaseKind::rayleigh, 0}, Phase{PhaseKind::mie_hazy, 0},
+        Phase{PhaseKind::henyey_greenstein, 0.7}, Phase{PhaseKind::cornette_shanks, -0.5}, Phase{PhaseKind::mie_murky, 0}}) {
     Random random(stream + 3);
     Columns in, at;
     constexpr int nodes = 512;
@@ -161,6 +186,7 @@ void add_marching_checks(std::vector<Check>& checks) {
   checks.push_back({"step_angle", measure_angle, "geometry_double", "step_angle"});
   checks.push_back({"step_mean_place", [](const Run& run) { return measure_means(run, false); }, "step_means", "step_means"});
   checks.push_back({"step_mean_distance", [](const Run& run) { return measure_means(run, true); }, "step_means", "step_means"});
+  checks.push_back({"step_parts", measure_parts, "geometry_double", "step_parts"});
   checks.push_back({"step_phase", measure_phase, "step_phase", "step_phase"});
   checks.push_back({"ray_ended", measure_end, "exact_double", "exact_float"});
   checks.push_back({"step_transmittance", measure_transmittance, "opacity_double", "opacity"});
