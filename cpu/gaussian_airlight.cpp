@@ -44,16 +44,16 @@ struct Scattering {
   HWY_INLINE void put(Real value, float* plane) const { store(select(mine, value, load(plane + i)), plane + i); }
   HWY_INLINE void begin(int first, Mask of_square, Real length);
   HWY_INLINE void add(std::size_t light, const Real* scattered);
-  HWY_INLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
+  HWY_NOINLINE void scatter(const GaussianPanels::Shade& s, std::size_t k, Real t, Real weight, const Local& here);
   HWY_INLINE void glow(Real t, Real weight, const Local& here);
   HWY_INLINE void node(const GaussianPanels::Panel& p, Real t, Real weight, const Local& here);
-  HWY_INLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
+  HWY_NOINLINE void sample(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE const GaussLegendre& rule_of(const GaussianPanels::Panel& p) const {
     return rules[static_cast<std::size_t>(p.samples - 1)];
   }
   HWY_INLINE void sample_lit(const GaussianPanels::Panel& p, Real from, Real to);
   HWY_INLINE void closed_forms(const GaussianPanels::Panel& p, Real from, Real to, Mask going);
-  HWY_INLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
+  HWY_NOINLINE int cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const;
   HWY_INLINE void panel(const GaussianPanels::Panel& p);
 };
 
@@ -95,7 +95,7 @@ HWY_INLINE void Scattering::add(std::size_t light, const Real* scattered) {
 }
 
 // What light k adds at a node of this weight.
-HWY_INLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::size_t k, Real t, Real weight, const Local& here) {
+HWY_NOINLINE void Scattering::scatter(const GaussianPanels::Shade& shade, std::size_t k, Real t, Real weight, const Local& here) {
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
   const Light& light = a.lights[k];
@@ -130,7 +130,7 @@ HWY_INLINE void Scattering::node(const GaussianPanels::Panel& p, Real t, Real we
 
 // From `from` to `to` by the nodes, of which the depth comes, too, unless surfaces may throw a shadow: then errors of extinction
 // in front and of what it scatters make up for each other. Nothing where to <= from.
-HWY_INLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
+HWY_NOINLINE void Scattering::sample(const GaussianPanels::Panel& p, Real from, Real to) {
   const GaussLegendre& rule = rule_of(p);
   const std::size_t count = rule.node.size();
   const Real half = max(to - from, 0.0) * 0.5, middle = (from + to) * 0.5;
@@ -215,7 +215,7 @@ HWY_INLINE void Scattering::closed_forms(const GaussianPanels::Panel& p, Real fr
 }
 
 // Where the panel is cut, ascending, its ends among them. Returns how many.
-HWY_INLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const {
+HWY_NOINLINE int Scattering::cuts(const GaussianPanels::Panel& p, Real from, Real to, Real* cut) const {
   int n = 0;
   bool sorted = true;
   cut[n++] = from;

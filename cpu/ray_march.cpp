@@ -53,7 +53,7 @@ struct March {
   HWY_NOINLINE void stretch(Real begin, Real end, bool all);  // asked three times, a half of what there is to compile
   HWY_INLINE Local local(const Real3& p, bool all) const;
   HWY_INLINE void add_light(std::size_t k, Real from, Real to, Real before_it, const Local& here);
-  HWY_INLINE void add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
+  HWY_NOINLINE void add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here);
 };
 
 HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, const LitRays& lit_rays, float* floats)
@@ -173,7 +173,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
 }
 
 // A part of a step, or all of it: of optical depth tau.
-HWY_INLINE void March::add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here) {
+HWY_NOINLINE void March::add_part(std::size_t k, Real from, Real to, Real before_it, Real tau, const Local& here) {
   const Light& light = a.lights[k];
   const int kind = static_cast<int>(a.phase.kind);
   const auto g = static_cast<float>(a.phase.g);
