@@ -31,14 +31,13 @@ Knob environment_shadows_knob();
 Knob environment_rays_knob();
 // `environment_indirect`: off | on | published, of what of an environment the medium scatters onto surfaces.
 Knob environment_indirect_knob();
-// `environment_depth`: auto | pixel | lattice | object, and `environment_cells`, of the mean depths that attenuate it.
+// `environment_depth`: auto | pixel | lattice | object, `environment_cells` and `environment_blocks`, of the mean depths that
+// attenuate it.
 Knob environment_depth_knob();
 Knob environment_cells_knob();
+Knob environment_blocks_knob();
 // `shadows`: on | off, of FramePlan::add_shadow_volumes().
 Knob shadows_knob();
-
-// Why no technique lights the scene's surfaces by its environment, if so: what a grid attenuates of it is not known.
-std::optional<std::string> refuses_environment(const Scene&);
 
 class FramePlan {
  public:

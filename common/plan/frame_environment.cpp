@@ -33,11 +33,6 @@ Knob environment_rays_knob() {
                       "rays from each side of a vertex that find what casters hide of an environment");
 }
 
-std::optional<std::string> refuses_environment(const Scene& scene) {
-  if (!scene.environment || !scene.medium.grid || scene.surfaces.empty()) return std::nullopt;
-  return "an environment lights surfaces through fog and Gaussians, the scene has a grid";
-}
-
 // Where it will be added, airlight is handed on, and its depth is wanted.
 void FramePlan::expect_environment_airlight() {
   if (!scene.environment) return;

@@ -15,8 +15,8 @@ namespace airlight {
 Knob environment_indirect_knob() {
   return choice_knob(
       "environment_indirect", {"off", "on", "published"},
-      "an environment's light that the medium scatters once on its way to surfaces: none, by the mean depths of the Gaussians "
-      "about each point, or as Zhou et al. print it for the isotropic phase function, of Gaussians alone");
+      "an environment's light that the medium scatters once on its way to surfaces: none, by the mean depths of Gaussians "
+      "and grids about each point, or as Zhou et al. print it for the isotropic phase function, of these alone");
 }
 
 // Of Gaussians, or of the grid: each counts as much as it holds.
@@ -45,8 +45,8 @@ std::optional<std::string_view> FramePlan::lacks_environment_indirect() const {
   if (choice == "off") return "environment_indirect = off";
   if (!has_surfaces()) return "no surface";
   const bool fog = choice == "on" && scene.medium.extinction > 0 && scene.medium.albedo != glm::dvec3(0);
-  const bool gaussians = !gaussians_of(scene).empty() && rest_albedo() != glm::vec3(0);
-  if (!fog && !gaussians) return choice == "on" ? "nothing scatters" : "no Gaussian scatters";
+  const bool rest = (!gaussians_of(scene).empty() || scene.medium.grid) && rest_albedo() != glm::vec3(0);
+  if (!fog && !rest) return choice == "on" ? "nothing scatters" : "no Gaussian and no grid scatters";
   return std::nullopt;
 }
 

@@ -13,7 +13,8 @@ std::vector<Knob> with_surface_knobs(std::vector<Knob> own, const Knob& environm
                          environment_shadows_knob(),
                          environment_rays_knob(),
                          environment_depth_knob(),
-                         environment_cells_knob()};
+                         environment_cells_knob(),
+                         environment_blocks_knob()};
   own.insert(own.end(), std::begin(shared), std::end(shared));
   return own;
 }

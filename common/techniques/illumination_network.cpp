@@ -17,8 +17,7 @@ namespace {
 std::optional<std::string> refuses(const Scene& scene) {
   if (scene.medium.gaussians.empty() && !scene.medium.grid)
     return "its particles stand for Gaussians and grids, the scene has neither";
-  if (auto why = refuses_noise(scene)) return why;
-  return refuses_environment(scene);
+  return refuses_noise(scene);
 }
 
 Knob scattered_environment_knob() {

@@ -68,10 +68,7 @@ Technique marching() {
                                        {"4", "8", "16", "32", "64"}),
                           choice_knob("shadow", {"analytic", "march"}, "how the light's way through Gaussians is attenuated",
                                       {"analytic", "march"})});
-  t.refuses = [](const Scene& scene) {
-    const auto why = refuses_noise(scene);
-    return why ? why : refuses_environment(scene);
-  };
+  t.refuses = refuses_noise;
   t.plan = plan;
   t.estimate = estimate_marching;
   return t;

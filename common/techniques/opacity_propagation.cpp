@@ -65,10 +65,7 @@ Technique opacity_propagation() {
            "as it is with up to 4 Gaussians, else a volume of up to twice that resolution, where Gaussians are small",
            {}, {"exact"}),
        choice_knob("storage", {"float", "half"}, "what volumes are kept in: 32 bits a value, or 16")});
-  t.refuses = [](const Scene& scene) {
-    const auto why = refuses_noise(scene);
-    return why ? why : refuses_environment(scene);
-  };
+  t.refuses = refuses_noise;
   t.plan = plan;
   t.estimate = estimate_opacity_propagation;
   return t;

@@ -137,7 +137,6 @@ constexpr std::pair<std::string_view, Edit> edits[] = {
          w.scene.medium.grid.reset();
        } else {
          w.scene.medium.grid = small_grid();
-         w.scene.environment.reset();
        }
        return true;
      }},
@@ -213,7 +212,6 @@ constexpr std::pair<std::string_view, Edit> edits[] = {
      }},
     {"environment comes or goes",
      [](Edits& e, Work& w) {
-       if (w.scene.medium.grid) return false;
        if (w.scene.environment) {
          w.scene.environment.reset();
        } else {

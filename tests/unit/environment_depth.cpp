@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
 #include "app/airlight.h"
 #include "tests/parity/inputs.h"
+#include "tests/unit/small_work.h"
 
 namespace airlight {
 namespace {
@@ -82,6 +84,23 @@ TEST_P(EnvironmentDepths, AreKeptWhileTheCameraMoves) {
   EXPECT_TRUE(ran(render(scene, "auto"), "mean_depth_lattice"));
   scene.surfaces[0].transform[3].y += 0.2;
   EXPECT_TRUE(ran(render(scene, "auto"), "mean_depth_lattice"));
+}
+
+TEST_P(EnvironmentDepths, OfAGridAreKeptWhileTheCameraMoves) {
+  Scene scene = steam_over_a_square(0);
+  scene.medium.grid = small_grid();
+  scene.medium.grid->transform = glm::scale(scene.medium.grid->transform, glm::dvec3(0.5));
+  RenderSettings settings = settings_of("lattice");
+  settings.technique = "marching";
+  Renderer renderer({.backend = GetParam(), .gl_context = "osmesa"});
+  const auto runs = [&] { return ran(renderer.render(scene, settings), "mean_depth_lattice"); };
+  EXPECT_TRUE(runs());
+  scene.camera.position.x += 0.3;
+  EXPECT_FALSE(runs());
+  scene.medium.grid->albedo = {0.5, 0.6, 0.7};
+  EXPECT_FALSE(runs());
+  scene.medium.grid->scale *= 2;
+  EXPECT_TRUE(runs());
 }
 
 // About a Gaussian in the middle of a square the depth is its own there, sqrt(pi) / 2 extinction radius, and so by `object` all

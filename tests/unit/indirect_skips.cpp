@@ -55,7 +55,7 @@ TEST(IndirectSkips, SayWhy) {
   lit.environment = Environment{nullptr, {1, 1, 1}, 0};
   const std::string environment = "indirect light of the environment: ";
   EXPECT_TRUE(told(lit, settings_of("off"), environment + "environment_indirect = off"));
-  EXPECT_TRUE(told(lit, settings_of("off", "published"), environment + "no Gaussian scatters"));
+  EXPECT_TRUE(told(lit, settings_of("off", "published"), environment + "no Gaussian and no grid scatters"));
   lit.medium.albedo = {0, 0, 0};
   EXPECT_TRUE(told(lit, settings_of("off", "on"), environment + "nothing scatters"));
   EXPECT_TRUE(told(with_blob(lit, {0, 0, 0}), settings_of("off", "on"), environment + "nothing scatters"));

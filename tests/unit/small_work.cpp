@@ -15,7 +15,8 @@ const std::map<std::string_view, std::vector<std::string>>& small_numbers() {
       {"iterations", {"30", "2"}},       {"tolerance", {"0.1", "1"}},
       {"resolution", {"6", "9"}},        {"steps", {"4", "6"}},
       {"light_steps", {"3", "5"}},       {"environment_rays", {"16", "20"}},
-      {"environment_cells", {"1", "2"}}, {"splat_radius", {"0.8", "1"}}};
+      {"environment_cells", {"1", "2"}}, {"environment_blocks", {"2", "3"}},
+      {"splat_radius", {"0.8", "1"}}};
   return all;
 }
 
