@@ -53,6 +53,7 @@ static void environment_light(const EnvironmentLight& a, const TileView& view, s
         Real sent[3];
         brdf_environment(tables + environment_harmonics_at(shininess.size()), tables + brdf_lobes_at(shininess.size(), b), n.x,
                          n.y, n.z, v.x, v.y, v.z, sent[0], sent[1], sent[2]);
+        lessen(a.hidden_specular, sent);
         for (int c = 0; c < 3; ++c) reflected[c] = select(mine, sent[c], reflected[c]);
       }
       for (int c = 0; c < 3; ++c) light[c] = select(hit, reflected[c] * attenuation, light[c]);

@@ -51,7 +51,12 @@ void main() {
     }
 #ifdef WITH_BRDFS
     int tabulated = lobes[int(index)];
-    if (tabulated >= 0) brdf_environment(counts.z, tabulated, n.x, n.y, n.z, -d.x, -d.y, -d.z, light.x, light.y, light.z);
+    if (tabulated >= 0) {
+      brdf_environment(counts.z, tabulated, n.x, n.y, n.z, -d.x, -d.y, -d.z, light.x, light.y, light.z);
+#ifdef WITH_HIDDEN_SPECULAR
+      light = max(light - texelFetch(hidden_specular_image, at, 0).xyz, 0.0);
+#endif
+    }
 #endif
 #ifdef WITH_MEDIUM
     light *= transmittance(texelFetch(mean_depth_image, at, 0).x);

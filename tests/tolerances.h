@@ -290,6 +290,8 @@ inline constexpr Tolerance tolerances[] = {
     {"environment_shadows_box", 1e-6, "radiance where none is: the same light twice, summed in another order"},
     {"environment_shadows_matt", 0.03, "relative RMSE: vertices of a coarse torus, harmonics of what is hidden"},
     {"environment_shadows_glossy", 0.06, "the same with a lobe of shininess 10"},
+    {"environment_shadows_rough_table", 0.06, "the same of tabulated microfacets of roughness 0.6"},
+    {"environment_shadows_table", 0.1, "the same of roughness 0.3, whose lobe is 20 degrees wide"},
     {"harmonic_product", 1e-6, "absolute, of coefficients up to 1/2: the products' integrals are floats"},
     {"image_plane", 5e-7, "beside half the image or the number of cells: three to five roundings of a number up to that"},
     {"direction", 4e-7, "length of the difference from a unit vector, or beside the distance: a few roundings"},

@@ -30,7 +30,7 @@ struct EnvironmentLight {
   Image distance, normal, material, transmittance;  // as in SurfaceShading
   Image mean_depth;                                 // as MeanDepth makes it; absent: 0
   Buffer tables;                                    // common/plan/environment.h makes them
-  Image hidden_diffuse, hidden_specular;            // as HiddenEnvironment makes them; optional
+  Image hidden_diffuse, hidden_specular;            // as HiddenEnvironment makes them; optional. The latter of reflectances, too
   std::vector<Material> materials;
   std::vector<int> brdf;  // number of each material's tabulated reflectance, which stands for it, or -1; empty: none has one
   View view;

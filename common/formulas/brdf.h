@@ -55,13 +55,10 @@ FORMULA void brdf_reflection(table t, real nx, real ny, real nz, real lx, real l
   blue = cosine * weighted_cell(t + 3, i, j, fma(halves, 2.0, k), phis + 1.0, differences, column - i, v, w);
 }
 
-// Radiance that a surface sends toward the viewer of an environment, by harmonics of order 6 of both. `harmonics`: the environment's, 36 a channel, about
-// +Y as their axis and from -Z on. For each viewing angle the lobe, the reflectance times the cosine, is the same on both sides of the plane of view; such
-// a function's band is a sum of six zonal ones about axes in that plane (Nowrouzezahrai et al. 2012), so that nothing needs to be turned: the
-// environment's band is looked up at each axis. `lobes`: cosine and sine of the six axes' angles from the normal toward the viewer; the number of
-// viewing angles, evenly spaced in the square root of 1 - cosine; then for each of them 108 weights: axes, bands, channels. Not below 0, where a
-// cut-off expansion may swing.
-FORMULA void brdf_environment(table harmonics, table lobes, real nx, real ny, real nz, real vx, real vy, real vz, OUT(real) red, OUT(real) green, OUT(real) blue) {
+// How a surface sees a tabulated reflectance's lobes in brdf_environment(), by its normal and the direction to the viewer: where the weights of the
+// viewing angle before this one's begin in `lobes`, and the weight of the next; toward the viewer in the plane of view, of length 1 / scale.
+FORMULA void brdf_view(table lobes, real nx, real ny, real nz, real vx, real vy, real vz, OUT(real) first, OUT(real) weight, OUT(real) tx, OUT(real) ty,
+                       OUT(real) tz, OUT(real) scale) {
   real level = min(max(fma(nx, vx, fma(ny, vy, nz * vz)), 0.0), 1.0);
   // Across the plane; where the viewer is in the direction of the normal any will do, as the lobe is round.
   real bx = fma(ny, vz, -(nz * vy));
@@ -72,43 +69,82 @@ FORMULA void brdf_environment(table harmonics, table lobes, real nx, real ny, re
   bx = select(overhead, select(upright, real(0.0), nz), bx);
   by = select(overhead, select(upright, nz, real(0.0)), by);
   bz = select(overhead, select(upright, -ny, -nx), bz);
-  // In the plane, of length 1: toward the viewer.
-  real tx = fma(by, nz, -(bz * ny));
-  real ty = fma(bz, nx, -(bx * nz));
-  real tz = fma(bx, ny, -(by * nx));
-  real scale = 1.0 / sqrt(max(fma(tx, tx, fma(ty, ty, tz * tz)), 1e-30));
+  tx = fma(by, nz, -(bz * ny));
+  ty = fma(bz, nx, -(bx * nz));
+  tz = fma(bx, ny, -(by * nx));
+  scale = 1.0 / sqrt(max(fma(tx, tx, fma(ty, ty, tz * tz)), 1e-30));
   real last = element(lobes, 12) - 1.0;
   real at = sqrt(1.0 - level) * last;
   real node = min(floor(at), last - 1.0);
-  real weight = at - node;
-  real first = fma(node, real(108.0), real(13.0));
-  red = real(0.0);
-  green = real(0.0);
-  blue = real(0.0);
+  weight = at - node;
+  first = fma(node, real(108.0), real(13.0));
+}
+
+// The basis at one of the lobes' axes.
+FORMULA void brdf_axis(table lobes, int axis, real nx, real ny, real nz, real tx, real ty, real tz, real scale, OUT_LIST(f, 36)) {
+  real c = element(lobes, axis);
+  real s = element(lobes, 6 + axis) * scale;
+  sh_basis(6, -fma(s, tz, c * nz), fma(s, tx, c * nx), fma(s, ty, c * ny), f);
+}
+
+// What the lobe sends of an environment's band l about an axis, given each channel's there.
+FORMULA void brdf_add_band(table lobes, int axis, int l, real first, real weight, real r, real g, real b, IN_OUT_LIST(sent, 3)) {
+  real place = first + real(18 * axis + 3 * l);
+  real low = fetch(lobes, place);
+  sent[0] = fma(fma(weight, fetch(lobes, place + 108.0) - low, low), r, sent[0]);
+  low = fetch(lobes, place + 1.0);
+  sent[1] = fma(fma(weight, fetch(lobes, place + 109.0) - low, low), g, sent[1]);
+  low = fetch(lobes, place + 2.0);
+  sent[2] = fma(fma(weight, fetch(lobes, place + 110.0) - low, low), b, sent[2]);
+}
+
+// Radiance that a surface sends toward the viewer of an environment, by harmonics of order 6 of both. `harmonics`: the environment's, 36 a channel, about
+// +Y as their axis and from -Z on. For each viewing angle the lobe, the reflectance times the cosine, is the same on both sides of the plane of view; such
+// a function's band is a sum of six zonal ones about axes in that plane (Nowrouzezahrai et al. 2012), so that nothing needs to be turned: the
+// environment's band is looked up at each axis. `lobes`: cosine and sine of the six axes' angles from the normal toward the viewer; the number of
+// viewing angles, evenly spaced in the square root of 1 - cosine; then for each of them 108 weights: axes, bands, channels. Not below 0, where a
+// cut-off expansion may swing.
+FORMULA void brdf_environment(table harmonics, table lobes, real nx, real ny, real nz, real vx, real vy, real vz, OUT(real) red, OUT(real) green, OUT(real) blue) {
+  real first;
+  real weight;
+  real tx;
+  real ty;
+  real tz;
+  real scale;
+  brdf_view(lobes, nx, ny, nz, vx, vy, vz, first, weight, tx, ty, tz, scale);
+  real sent[3];
+  for (int c = 0; c < 3; ++c) sent[c] = real(0.0);
   for (int axis = 0; axis < 6; ++axis) {
-    real c = element(lobes, axis);
-    real s = element(lobes, 6 + axis) * scale;
     real f[36];
-    sh_basis(6, -fma(s, tz, c * nz), fma(s, tx, c * nx), fma(s, ty, c * ny), f);
+    brdf_axis(lobes, axis, nx, ny, nz, tx, ty, tz, scale, f);
     for (int l = 0; l < 6; ++l) {
-      real r = real(0.0);
-      real g = real(0.0);
-      real b = real(0.0);
-      for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
-        r = fma(f[i], element(harmonics, i), r);
-        g = fma(f[i], element(harmonics, 36 + i), g);
-        b = fma(f[i], element(harmonics, 72 + i), b);
-      }
-      real place = first + real(18 * axis + 3 * l);
-      real low = fetch(lobes, place);
-      red = fma(fma(weight, fetch(lobes, place + 108.0) - low, low), r, red);
-      low = fetch(lobes, place + 1.0);
-      green = fma(fma(weight, fetch(lobes, place + 109.0) - low, low), g, green);
-      low = fetch(lobes, place + 2.0);
-      blue = fma(fma(weight, fetch(lobes, place + 110.0) - low, low), b, blue);
+      brdf_add_band(lobes, axis, l, first, weight, sh_band(harmonics, l, f), sh_band(harmonics + 36, l, f), sh_band(harmonics + 72, l, f), sent);
     }
   }
-  red = max(red, 0.0);
-  green = max(green, 0.0);
-  blue = max(blue, 0.0);
+  red = max(sent[0], 0.0);
+  green = max(sent[1], 0.0);
+  blue = max(sent[2], 0.0);
+}
+
+// The same of a part of an environment that is given as lists, as it comes out: what of it is hidden is taken away from all of it.
+FORMULA void brdf_environment_part(IN_LIST(r, 36), IN_LIST(g, 36), IN_LIST(b, 36), table lobes, real nx, real ny, real nz, real vx, real vy, real vz, OUT(real) red,
+                                   OUT(real) green, OUT(real) blue) {
+  real first;
+  real weight;
+  real tx;
+  real ty;
+  real tz;
+  real scale;
+  brdf_view(lobes, nx, ny, nz, vx, vy, vz, first, weight, tx, ty, tz, scale);
+  real sent[3];
+  for (int c = 0; c < 3; ++c) sent[c] = real(0.0);
+  for (int axis = 0; axis < 6; ++axis) {
+    real f[36];
+    brdf_axis(lobes, axis, nx, ny, nz, tx, ty, tz, scale, f);
+    for (int l = 0; l < 6; ++l)
+      brdf_add_band(lobes, axis, l, first, weight, sh_list_band(r, l, f), sh_list_band(g, l, f), sh_list_band(b, l, f), sent);
+  }
+  red = sent[0];
+  green = sent[1];
+  blue = sent[2];
 }

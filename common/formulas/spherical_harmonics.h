@@ -82,6 +82,20 @@ FORMULA real sh_value(table f, int order, real x, real y, real z) {
   return sh_sum(f, order, v);
 }
 
+// What one band has of sh_sum().
+FORMULA real sh_band(table f, int l, IN_LIST(v, 36)) {
+  real sum = real(0.0);
+  for (int i = l * l; i < (l + 1) * (l + 1); ++i) sum = fma(v[i], element(f, i), sum);
+  return sum;
+}
+
+// The same of an expansion that is given as a list.
+FORMULA real sh_list_band(IN_LIST(f, 36), int l, IN_LIST(v, 36)) {
+  real sum = real(0.0);
+  for (int i = l * l; i < (l + 1) * (l + 1); ++i) sum = fma(v[i], f[i], sum);
+  return sum;
+}
+
 // sqrt(4 pi / (2 l + 1)): times g_l it is by what a convolution with g multiplies band l.
 FORMULA real sh_zonal_factor(int l) { return sqrt(12.566370614359173 / (2.0 * real(l) + 1.0)); }
 

@@ -29,7 +29,8 @@ struct Nanoseconds {
   double operator()(const HomogeneousAirlight& a) const { return 1 + (a.scattered ? 1 : 16) * count(a.lights); }
   double operator()(const MeanDepthLattice& a) const { return 0.2 * count(a.gaussians); }
   double operator()(const MeanDepth& a) const { return 1 + (a.lattices.empty() ? 0.2 * count(a.gaussians) : 1); }
-  double operator()(const EnvironmentLight&) const { return 8; }
+  double operator()(const EnvironmentLight& a) const { return a.brdf.empty() ? 8 : 30; }
+  double operator()(const HiddenEnvironment& a) const { return 2 + (a.specular ? 10 : 0) + (a.brdfs > 0 ? 40 : 0); }
   double operator()(const DensityInjection& a) const { return 1 + 0.02 * count(a.gaussians) + (a.grid ? 5 : 0); }
   double operator()(const OpticalDepthPropagation& a) const {
     return 0.5 + 0.3 * count(a.gaussians) + (a.grid ? 3 * a.samples : 0);

@@ -97,9 +97,10 @@ void FramePlan::expect_environment_shadows() {
                    [](const Surface& s) { return s.casts_shadow && !s.mesh->triangles.empty(); }))
     return skip("nothing casts a shadow");
   if (request.knobs.choice("environment_shadows") == "off") return skip("environment_shadows = off");
-  const auto needless = [&](const Material& m) { return m.diffuse == glm::vec3(0) && m.specular == glm::vec3(0); };
-  if (std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& s) { return needless(s.material); }))
-    return skip("the surfaces reflect nothing");
+  const auto needless = [&](const Surface& s) {
+    return !s.brdf && s.material.diffuse == glm::vec3(0) && s.material.specular == glm::vec3(0);
+  };
+  if (std::all_of(scene.surfaces.begin(), scene.surfaces.end(), needless)) return skip("the surfaces reflect nothing");
   constexpr std::size_t most_triangles = 1 << 22;  // they may be cut, and their numbers must stay below 2^24
   if (geometry.triangles > most_triangles) return skip("more than 2^22 triangles");
 
@@ -126,18 +127,21 @@ void FramePlan::expect_environment_shadows() {
 void FramePlan::add_environment_shadows() {
   if (!corners_) return;
   const bool glossy = std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                                  [](const Surface& s) { return s.material.specular != glm::vec3(0); });
+                                  [](const Surface& s) { return s.brdf || s.material.specular != glm::vec3(0); });
   hidden_diffuse_ = handed_on(next_id_++, Format::rgb32f, 1);
   if (glossy) hidden_specular_ = handed_on(next_id_++, Format::rgb32f, 1);
-  // Of the materials the lobes alone.
+  // Of the materials the lobes alone, and tabulated reflectances.
   Hash key;
   key.add(std::string_view("hidden environment"));
   key.add(transfer_key_);
   key.add(environment_key(*scene.environment, {}));
-  for (const Surface& s : scene.surfaces) {
-    const bool lobe = s.material.specular != glm::vec3(0);
+  if (!brdfs.all.empty()) key.add(brdfs.key);
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Material& m = scene.surfaces[i].material;
+    const bool lobe = brdfs.of_surface[i] < 0 && m.specular != glm::vec3(0);
+    key.add(brdfs.of_surface[i]);
     key.add(lobe);
-    if (lobe) key.add(s.material.shininess);
+    if (lobe) key.add(m.shininess);
   }
   const Buffer table{{hidden_environment_id}, 0};
   const int rays = static_cast<int>(request.knobs.number("environment_rays"));
@@ -149,6 +153,7 @@ void FramePlan::add_environment_shadows() {
                                           .triangles = geometry.indices.buffer,
                                           .table = table,
                                           .view = view,
+                                          .brdfs = static_cast<int>(brdfs.all.size()),
                                           .diffuse = hidden_diffuse_,
                                           .specular = hidden_specular_},
                         "what surfaces hide of the environment from each other"});

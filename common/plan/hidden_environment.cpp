@@ -8,8 +8,10 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "common/algorithms/environment_light.h"
 #include "common/algorithms/hidden_environment.h"
 #include "common/formulas/double.h"
+#include "common/plan/brdf.h"
 #include "common/plan/hash.h"
 #include "common/plan/spherical_harmonics.h"
 
@@ -112,14 +114,20 @@ std::vector<float> hidden_environment_table(const Scene& scene, const SurfaceTra
   }
   const std::vector<glm::vec3> normals = normals_of(scene, transfer);
   const std::size_t vertices = transfer.vertices();
+  const SceneBrdfs brdfs = brdfs_of(scene);
   std::vector<float> table(static_cast<std::size_t>(hidden_head_floats), 0), lobes;
   table[0] = static_cast<float>(vertices);
+  for (const auto& brdf : brdfs.all) {
+    const std::vector<float> of_brdf = brdf_lobes(*brdf);
+    table.insert(table.end(), of_brdf.begin(), of_brdf.end());
+  }
   table.reserve(table.size() + transfer.record.size() * static_cast<std::size_t>(hidden_vertex_floats));
   std::array<double, 3 * bands> hidden{};
   for (std::size_t v = 0; v < transfer.record.size(); ++v) {
-    const std::uint32_t number = transfer.record[v];
+    const std::uint32_t number = transfer.record[v], s = surface[v % vertices];
+    const int brdf = brdfs.of_surface[s];
     if (number == SurfaceTransfer::nothing) {
-      table.insert(table.end(), {0, 0, 0, -1});
+      table.insert(table.end(), {0, 0, 0, -1, static_cast<float>(brdf)});
       continue;
     }
     std::array<float, SurfaceTransfer::record_floats> all{};
@@ -134,17 +142,15 @@ std::vector<float> hidden_environment_table(const Scene& scene, const SurfaceTra
       for (std::size_t k = 0; k < bands; ++k) sum += static_cast<double>(record[k]) * channel[k];
       table.push_back(static_cast<float>(std::max(sum, 0.0)));
     }
-    const std::uint32_t s = surface[v % vertices];
-    if (scene.surfaces[s].material.specular == glm::vec3(0)) {
-      table.push_back(-1);
-      continue;
-    }
-    table.push_back(static_cast<float>(lobes.size() / static_cast<std::size_t>(hidden_lobe_floats)));
+    const bool lobe_wanted = brdf >= 0 || scene.surfaces[s].material.specular != glm::vec3(0);
+    table.push_back(lobe_wanted ? static_cast<float>(lobes.size() / static_cast<std::size_t>(hidden_lobe_floats)) : -1.0F);
+    table.push_back(static_cast<float>(brdf));
+    if (!lobe_wanted) continue;
     product.times(record + bands, hidden);
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t l = 0; l < order; ++l) {
         for (std::size_t k = l * l; k < (l + 1) * (l + 1); ++k)
-          lobes.push_back(static_cast<float>(lobe[s][l] * hidden[c * bands + k]));
+          lobes.push_back(static_cast<float>((brdf >= 0 ? 1 : lobe[s][l]) * hidden[c * bands + k]));
       }
     }
   }

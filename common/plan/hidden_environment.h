@@ -11,7 +11,8 @@
 namespace airlight {
 
 // The table of HiddenEnvironment. Lambert's lobe is met by a dot product; others by the triple product of what is hidden, the
-// environment, and the lobe (Zhou et al. 2007, eq. 20), of which all but the lobe's direction is done here.
+// environment, and the lobe (Zhou et al. 2007, eq. 20), of which all but the lobe's direction is done here; tabulated
+// reflectances, whose lobe changes with the viewing angle, by the same without the lobe.
 std::vector<float> hidden_environment_table(const Scene&, const SurfaceTransfer&);
 
 // The coefficients of hidden(direction) times an environment, both of order 6, cut off again at that order.

@@ -72,6 +72,17 @@ FORMULA void call_brdf(int formula, table t, INPUTS, RESULTS) {
   if (formula == 90) half_angles(a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], r[0], r[1], r[2]);
   if (formula == 91) brdf_reflection(t, a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], r[0], r[1], r[2]);
   if (formula == 92) brdf_environment(t, t + 108, a[0], a[1], a[2], a[3], a[4], a[5], r[0], r[1], r[2]);
+  if (formula == 93) {
+    real red[36];
+    real green[36];
+    real blue[36];
+    for (int i = 0; i < 36; ++i) {
+      red[i] = element(t, i);
+      green[i] = element(t, 36 + i);
+      blue[i] = element(t, 72 + i);
+    }
+    brdf_environment_part(red, green, blue, t + 108, a[0], a[1], a[2], a[3], a[4], a[5], r[0], r[1], r[2]);
+  }
 }
 
 FORMULA void call_formula(int formula, table t, int kind, real g, INPUTS, RESULTS) {

@@ -1,7 +1,9 @@
 #include "common/algorithms/hidden_environment.h"
 
+#include "common/plan/brdf.h"
 #include "common/plan/geometry.h"
 #include "common/plan/hidden_environment.h"
+#include "tests/parity/brdfs.h"
 #include "tests/parity/inputs.h"
 
 namespace airlight {
@@ -29,12 +31,13 @@ SurfaceTransfer test_transfer(std::size_t vertices, Hiding hiding) {
   return t;
 }
 
-Case hidden(Scene scene, Extent extent, Hiding hiding, bool glossy) {
+Case hidden(Scene scene, Extent extent, Hiding hiding, bool glossy, const std::vector<std::shared_ptr<const Brdf>>& brdfs = {}) {
   Case c;
   FrameRequest request;
   request.extent = extent;
   scene.environment = Environment{nullptr, {0.4, 0.7, 1.2}, 0};
   for (Surface& s : scene.surfaces) s.material.specular = glm::vec3(glossy ? 0.3F : 0), s.material.shininess = 12;
+  for (std::size_t k = 0; k < brdfs.size(); ++k) scene.surfaces[k].brdf = brdfs[k];
   const Geometry g = geometry_of(scene, 1);
   for (const Plan::Upload* upload : {&g.positions, &g.normals, &g.indices})
     c.buffers.emplace_back(upload->buffer, upload->make());
@@ -61,6 +64,7 @@ Case hidden(Scene scene, Extent extent, Hiding hiding, bool glossy) {
                                 .triangles = g.indices.buffer,
                                 .table = buffer,
                                 .view = view,
+                                .brdfs = static_cast<int>(brdfs_of(scene).all.size()),
                                 .diffuse = diffuse,
                                 .specular = specular},
               ""}};
@@ -73,6 +77,10 @@ Case matt(Extent e) { return hidden(test_scene(20000), e, Hiding::some, false); 
 Case glossy(Extent e) { return hidden(test_scene(20000), e, Hiding::some, true); }
 Case nothing(Extent e) { return hidden(test_scene(600), e, Hiding::nothing, true); }
 Case everything(Extent e) { return hidden(test_scene(600), e, Hiding::everything, true); }
+Case tabulated(Extent e) {
+  return hidden(test_scene(2000), e, Hiding::some, true, {microfacet_table({24, 12, 12}, 0.3), microfacet_table({8, 8, 8}, 0.6)});
+}
+Case tabulated_and_glossy(Extent e) { return hidden(test_scene(600), e, Hiding::some, true, {microfacet_table({8, 8, 8}, 0.6)}); }
 Case both_sides(Extent e) {  // the camera stands in the torus
   Scene scene = test_scene(2000);
   scene.camera.position = {1.0, 0.02, 0.0};
@@ -85,6 +93,8 @@ Case both_sides(Extent e) {  // the camera stands in the torus
 std::span<const NamedCase> hidden_environment_cases() {
   static constexpr NamedCase cases[] = {{"hidden_environment/matt", matt},
                                         {"hidden_environment/glossy", glossy},
+                                        {"hidden_environment/two_tabulated", tabulated},
+                                        {"hidden_environment/tabulated_and_glossy", tabulated_and_glossy},
                                         {"hidden_environment/nothing", nothing},
                                         {"hidden_environment/everything", everything},
                                         {"hidden_environment/both_sides", both_sides}};

@@ -11,6 +11,8 @@
 
 #include "app/airlight.h"
 #include "common/reference/reference.h"
+#include "common/scene/brdf.h"
+#include "tests/parity/brdfs.h"
 #include "tests/parity/inputs.h"
 #include "tests/tolerances.h"
 #include "tests/truth/relative_error.h"
@@ -34,7 +36,7 @@ Environment evening() {
 }
 
 // A torus above a floor of two triangles, under that sky.
-Scene torus_above_floor(float specular) {
+Scene torus_above_floor(float specular, double roughness) {
   Scene scene;
   scene.environment = evening();
   scene.camera.position = {1.5, 2.2, 3.2}, scene.camera.look_at = {0, 0.3, 0};
@@ -47,6 +49,9 @@ Scene torus_above_floor(float specular) {
   Mesh floor;
   add_parallelogram(floor, {-6, 0, 5}, {11, 0, 0}, {0, 0, -13});
   scene.surfaces = {torus, surface(std::move(floor), material, true)};
+  if (!(roughness > 0)) return scene;
+  const auto brdf = microfacet_table({40, 24, 32}, roughness);
+  for (Surface& s : scene.surfaces) s.brdf = brdf, s.material = brdf_material(*brdf);
   return scene;
 }
 
@@ -70,13 +75,14 @@ double error(const Scene& scene, const ReferenceFrame& truth, Renderer& renderer
 struct Look {
   std::string_view name, bound;
   float specular;
+  double roughness = 0;  // of a table of microfacets, which it is then
 };
 void PrintTo(const Look& l, std::ostream* out) { *out << l.name; }
 
 class EnvironmentShadows : public testing::TestWithParam<Look> {};
 
 TEST_P(EnvironmentShadows, StateTheDistance) {
-  const Scene scene = torus_above_floor(GetParam().specular);
+  const Scene scene = torus_above_floor(GetParam().specular, GetParam().roughness);
   NoProgress progress;
   const ReferenceFrame truth = reference_frame(scene, {12, 9}, {}, true, 2, progress);
   std::printf("truth claims %.1e\n", truth.error);
@@ -91,7 +97,9 @@ TEST_P(EnvironmentShadows, StateTheDistance) {
 
 INSTANTIATE_TEST_SUITE_P(Looks, EnvironmentShadows,
                          testing::Values(Look{"matt", "environment_shadows_matt", 0},
-                                         Look{"glossy", "environment_shadows_glossy", 0.4F}),
+                                         Look{"glossy", "environment_shadows_glossy", 0.4F},
+                                         Look{"tabulated_rough", "environment_shadows_rough_table", 0, 0.6},
+                                         Look{"tabulated", "environment_shadows_table", 0, 0.3}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // A floor beside a wall without end that is 1 m high: at x from it a white sky lights (1 + x / sqrt(x^2 + 1)) / 2 of what it

@@ -98,6 +98,7 @@ enum class Formula : int {
   half_angles = 90,                       // normal, to the light, to the viewer -> of the half vector, from it, around it
   brdf_reflection = 91,                   // the same; the table: of a reflectance -> red, green, blue
   brdf_environment = 92,                  // normal, to the viewer; the table: harmonics, then lobes -> red, green, blue
+  brdf_environment_part = 93,             // the same
   splat_before = 95,                      // s
   splat_depth = 96,                       // d, c, 1 / support, peak, end -> depth, foot
   splat_opacity = 97,                     // tau
