@@ -101,8 +101,8 @@ static void hidden_environment(const HiddenEnvironment& a, const TileView& view)
     for (int c = 0; c < 3; ++c) store(diffuse[c], view.plane(a.diffuse, c) + i);
     if (!a.specular) continue;
     for (int b = 0; b < a.brdfs && hidden.any; ++b) {
-      const Real number = static_cast<float>(b);
-      const Mask mine = (hidden.brdf >= number) && (hidden.brdf <= number);
+      const Real one = static_cast<float>(b);
+      const Mask mine = (hidden.brdf >= one) && (hidden.brdf <= one);
       if (!any_lane(mine)) continue;
       const Real3 d = pixel_rays(a.view, view.tile, i);
       Real sent[3];
