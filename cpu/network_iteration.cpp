@@ -185,12 +185,15 @@ void isotropic_gradients(Iteration& it) {
   gradients.finish({it.sources, 4 * it.n});
 }
 
-// A source in each direction. What a particle takes of one is shared out by the phase function over the directions in which it
-// sends, each with its own weight, so that what it sends is what it takes, times its albedo.
+// A source in each direction: the phase function's mean of the radiance that a particle takes of each, what it takes beside what
+// it could. It sends in each by its own weight, so that this is not yet what it takes, times its albedo: what is left, or is too
+// much, goes evenly in all directions. (Shares of what is taken, by the weights that it goes to, would keep energy as well; but
+// then few directions about a forward peak count by how long links happen to be, and half as much again is off.)
 void anisotropic(Iteration& it) {
   const std::size_t n = it.n, lines = it.line_count, row = it.row, particles = row / 4;
   std::vector<float> even(lines * lines), odd(lines * lines), first(2 * lines * row, 0.0F), weight(lines * n, 0.0F),
-      share(lines * particles, 0.0F), even_taken(lines * row), odd_taken(lines * row);
+      share(lines * particles, 0.0F), rest(lines * particles, 0.0F), all_weights(n, 0.0F), even_taken(lines * row),
+      odd_taken(lines * row);
   const std::vector<float> albedo = it.albedos();
   // Rows are columns: the phase function is the same from one direction to another and back.
   it.each_line([&](std::size_t l, std::size_t) {
@@ -199,13 +202,23 @@ void anisotropic(Iteration& it) {
     for (std::size_t d = 2 * l; d < 2 * l + 2; ++d) std::copy_n(it.first + 4 * n * d, 4 * n, first.data() + row * d);
     add_weights(it.links_of(l), weight.data() + n * l);
   });
+  for (std::size_t l = 0; l < lines; ++l) {
+    for (std::size_t v = 0; v < n; ++v) all_weights[v] += 2 * weight[n * l + v];
+  }
+  for (float& w : all_weights) w = 1 / std::max(w, 1e-30F);
   it.each_line([&](std::size_t l, std::size_t) {
     float* to = share.data() + particles * l;
     for (std::size_t j = 0; j < lines; ++j) {
       const float phase = 2 * even[lines * l + j], *weights = weight.data() + n * j;
       for (std::size_t v = 0; v < n; ++v) to[v] += phase * weights[v];
     }
-    for (std::size_t v = 0; v < n; ++v) to[v] = 1 / std::max(to[v], 1e-30F);
+    float of_phase = 0;
+    for (std::size_t j = 0; j < lines; ++j) of_phase += 2 * even[lines * l + j];
+    for (std::size_t v = 0; v < n; ++v) {
+      const float could = of_phase * weight[n * l + v];
+      rest[particles * l + v] = (could - to[v]) * all_weights[v];
+      to[v] = 1 / std::max(could, 1e-30F);
+    }
   });
   const bool some_odd = std::any_of(odd.begin(), odd.end(), [](float x) { return x != 0; });
   std::vector<float> source = first;
@@ -213,8 +226,9 @@ void anisotropic(Iteration& it) {
   std::vector<std::vector<float>> ways(threads, std::vector<float>(2 * row));
   std::vector<ScatterScratch> scratch(threads);
   for (ScatterScratch& s : scratch) s.even.resize(3 * particle_padding * lines), s.odd.resize(3 * particle_padding * lines);
-  const DirectionScatter scatter{even.data(), odd.data(), even_taken.data(),   odd_taken.data(), first.data(), source.data(),
-                                 lines,       row,        some_odd ? lines : 0};
+  const DirectionScatter scatter{even.data(), odd.data(),          even_taken.data(), odd_taken.data(),
+                                 rest.data(), first.data(),        source.data(),     lines,
+                                 row,         some_odd ? lines : 0};
   const std::size_t batches = particles / particle_padding;
   it.iterate(batches, [&](std::vector<SourceChange>& changes) {
     it.each_line([&](std::size_t l, std::size_t worker) {

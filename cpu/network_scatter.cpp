@@ -133,7 +133,7 @@ HWY_INLINE void new_sources(const DirectionScatter& s, const ScatterScratch& scr
       interleaved(s.first + place, first);
       interleaved(s.sources + place, before);
       for (int c = 0; c < 3; ++c) {
-        Real sum = load(kept + (3 * r + c) * lanes);
+        Real sum = load(kept + (3 * r + c) * lanes) + load(scratch.evenly + c * lanes);
         sum = way == 0 ? sum + odd[r][c] : sum - odd[r][c];
         now[c] = first[c] + sum;
         change.change[c] += abs(now[c] - before[c]);
@@ -153,6 +153,7 @@ static void scatter_directions_lanes(const DirectionScatter& s, std::size_t part
   HWY_ALIGN float changes[2][3][16];
   for (std::size_t part = 0; part < particle_padding; part += lanes) {
     const std::size_t at = 4 * (particle + part);
+    Real evenly[3] = {0.0, 0.0, 0.0};
     for (std::size_t l = 0; l < s.lines; ++l) {
       Real even[3], odd[3];
       interleaved(s.even_taken + s.row * l + at, even);
@@ -160,8 +161,10 @@ static void scatter_directions_lanes(const DirectionScatter& s, std::size_t part
       for (std::size_t c = 0; c < 3; ++c) {
         store(even[c], scratch.even.data() + (3 * l + c) * lanes);
         store(odd[c], scratch.odd.data() + (3 * l + c) * lanes);
+        evenly[c] = fma(load(s.rest + s.row / 4 * l + at / 4), even[c], evenly[c]);
       }
     }
+    for (int c = 0; c < 3; ++c) store(evenly[c], scratch.evenly + c * lanes);
     LaneChange all{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     std::size_t i = 0;
     for (; i + rows <= s.lines; i += rows) new_sources<rows>(s, scratch, at, i, all);

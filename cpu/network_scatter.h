@@ -35,6 +35,7 @@ struct EvenScatter {
 struct DirectionScatter {
   const float *even, *odd;  // [from line][to line]
   const float *even_taken, *odd_taken;
+  const float* rest;  // of a line and a particle: what of the even part of what it takes is sent evenly in all directions
   const float* first;
   float* sources;
   std::size_t lines, row;
@@ -44,6 +45,7 @@ struct DirectionScatter {
 constexpr int most_rows = 8;  // of the product, made at a time
 struct ScatterScratch {
   std::vector<float> even, odd;  // what `lanes` particles take
+  float evenly[48] = {};         // what they send in all directions, a channel after another
 };
 
 // Phase function from the lines' directions to that of line i, halves of the sum and of the difference of both ways.

@@ -27,7 +27,11 @@ HWY_INLINE void light_lanes(const ParticleLight& a, const float* particles, cons
   const MediumLookup medium(a.gaussians, a.grid, voxels, a.light_steps);
   const Real3 place = here.place(a.unit);
   const Mask all = Real(0.0) < Real(1.0);
-  const auto g = static_cast<float>(a.phase.g);
+  // The phase function from a light's way, against which it goes, to direction i.
+  const auto toward = [&](const Real3& way, int i) HWY_ATTR {
+    const Real mu = dot(way, line_direction_of(lines + static_cast<std::ptrdiff_t>(line_fields) * (i / 2)));
+    return phase_value(static_cast<int>(a.phase.kind), static_cast<float>(a.phase.g), i % 2 == 0 ? -mu : mu);
+  };
   for (int i = 0; i < directions; ++i) {
     Real rgb[3];
     for (int c = 0; c < 3; ++c) rgb[c] = here.plane(particle_glow + c);
@@ -44,13 +48,14 @@ HWY_INLINE void light_lanes(const ParticleLight& a, const float* particles, cons
       arriving = 1.0 / (r * r);
     }
     arriving = arriving * transmittance(depth);
+    // So many directions do not have quite the phase function's mean about each way of the light: all that is scattered goes on.
+    if (!isotropic) {
+      Real sum = 0.0;
+      for (int i = 0; i < directions; ++i) sum += toward(way, i);
+      arriving = arriving * (static_cast<float>(directions) * phase_isotropic()) / sum;
+    }
     for (int i = 0; i < directions; ++i) {
-      Real phase = phase_isotropic();
-      if (!isotropic) {
-        const Real3 d = line_direction_of(lines + static_cast<std::ptrdiff_t>(line_fields) * (i / 2));
-        const Real mu = dot(way, d);  // light goes against `way`
-        phase = phase_value(static_cast<int>(a.phase.kind), g, i % 2 == 0 ? -mu : mu);
-      }
+      const Real phase = isotropic ? phase_isotropic() : toward(way, i);
       HWY_ALIGN float values[16];
       store(arriving * phase, values);
       float* to = first + 4 * static_cast<std::ptrdiff_t>(i) * n;

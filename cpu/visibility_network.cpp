@@ -21,6 +21,8 @@ namespace airlight {
 namespace {
 
 constexpr int padding = 16;  // the most lanes
+// Places of particles in their pixel are summed up in eighths of a lattice unit, so that sums fit 32 bits on GL, too.
+constexpr int sum_unit = lattice_length / 8;
 
 // A Gaussian in the frame of a bundle of lines [m].
 struct AcrossLine {
@@ -130,8 +132,9 @@ struct Worker {
     std::int32_t along, particle;
     bool operator<(const Place& b) const { return along != b.along ? along < b.along : particle < b.particle; }
   };
-  std::vector<std::size_t> pixels;  // of each particle
-  std::vector<std::size_t> ends;    // of each pixel's places
+  std::vector<std::size_t> pixels;      // of each particle
+  std::vector<std::int32_t> within[2];  // of each pixel, summed over its particles: where in it they are, across and down
+  std::vector<std::size_t> ends;        // of each pixel's places
   std::vector<Place> places;
   std::vector<AcrossLine> gaussians;
   std::vector<float> along, erfs, depths;
@@ -144,15 +147,19 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
   w.places.resize(shape.particles);
   w.pixels.resize(shape.particles);
   w.ends.assign(shape.slots + 1, 0);
+  for (std::vector<std::int32_t>& sums : w.within) sums.assign(shape.slots, 0);
   const auto place_of = [&](std::size_t v, std::int32_t(&p)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = static_cast<std::int32_t>(particles[axis * shape.particles + v]);
   };
   for (std::size_t v = 0; v < shape.particles; ++v) {
     std::int32_t p[3];
     place_of(v, p);
-    const std::int32_t column = (dot_of(line + line_across, p) - line[line_begin]) / line[line_pixel];
-    const std::int32_t row = (dot_of(line + line_down, p) - line[line_begin + 1]) / line[line_pixel + 1];
+    const std::int32_t across = dot_of(line + line_across, p) - line[line_begin],
+                       down = dot_of(line + line_down, p) - line[line_begin + 1];
+    const std::int32_t column = across / line[line_pixel], row = down / line[line_pixel + 1];
     w.pixels[v] = static_cast<std::size_t>(column + line[line_pixels] * row);
+    w.within[0][w.pixels[v]] += (across - column * line[line_pixel]) / sum_unit;
+    w.within[1][w.pixels[v]] += (down - row * line[line_pixel + 1]) / sum_unit;
     ++w.ends[w.pixels[v] + 1];
   }
   for (std::size_t c = 0; c < shape.slots; ++c) w.ends[c + 1] += w.ends[c];  // where pixels begin, for now
@@ -184,12 +191,13 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
       w.erfs.assign(n + 2 + 2 * padding, 0.0F);
       w.depths.assign(n + 1 + padding, 0.0F);
       const auto pixel = static_cast<std::int32_t>(c);
-      const auto middle = [&](int which, std::int32_t number) {
+      const auto mean = [&](int which, std::int32_t number) {
         const std::int32_t begins = line[line_begin + which] + number * line[line_pixel + which];
-        return (static_cast<float>(begins) + 0.5F * static_cast<float>(line[line_pixel + which])) * unit;
+        const float within = (static_cast<float>(w.within[which][c]) / static_cast<float>(n) + 0.5F) * sum_unit;
+        return (static_cast<float>(begins) + within) * unit;
       };
-      list.across = middle(0, pixel % line[line_pixels]);
-      list.down = middle(1, pixel / line[line_pixels]);
+      list.across = mean(0, pixel % line[line_pixels]);
+      list.down = mean(1, pixel / line[line_pixels]);
       list.count = static_cast<int>(n);
       list.along = w.along.data() + padding;
       list.erfs = w.erfs.data();

@@ -1,5 +1,5 @@
 // Eight programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
-// particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by. SWEEP: light along
+// particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by, and what of it goes evenly in all directions (cpu/network_iteration.cpp). SWEEP: light along
 // a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC. SUMS: what changed of
 // a particle, and what it sends, over all directions and channels. TAKEN: what a particle takes along all lines, ISOTROPIC.
 #include "gpu/dialect.glsl"
@@ -15,6 +15,7 @@ layout(std430, binding = 7) buffer MatrixBuffer { float matrix_values[]; };
 
 int weight_at(int line, int v) { return 2 * particle_count + line * particle_count + v; }
 int share_at(int k) { return 2 * particle_count + line_count * particle_count + k; }
+int rest_at(int k) { return share_at(line_count * particle_count + k); }
 #ifdef ISOTROPIC
 int sky_at(int d) { return share_at(particle_count) + 4 * d; }
 #else
@@ -89,12 +90,21 @@ void main() {
   words[share_at(n)] = floatBitsToUint(0.5 / max(sum, 1e-30));
   words[n] = words[share_at(n)];  // where it can be read back: nothing has changed yet
 #else
-  int directions = 2 * line_count;
-  if (n >= directions * particle_count) return;
+  if (n >= line_count * particle_count) return;
+  int line = n / particle_count;
   float sum = 0.0;
-  for (int j = 0; j < directions; ++j)
-    sum += matrix_values[n / particle_count + directions * j] * uintBitsToFloat(words[weight_at(j / 2, n % particle_count)]);
-  words[share_at(n)] = floatBitsToUint(1.0 / max(sum, 1e-30));
+  float of_phase = 0.0;
+  float all_weights = 0.0;
+  for (int j = 0; j < 2 * line_count; ++j) {
+    float phase = matrix_values[2 * line + 2 * line_count * j];
+    float weight = uintBitsToFloat(words[weight_at(j / 2, n % particle_count)]);
+    sum += phase * weight;
+    of_phase += phase;
+    all_weights += weight;
+  }
+  float could = of_phase * uintBitsToFloat(words[weight_at(line, n % particle_count)]);
+  words[share_at(n)] = floatBitsToUint(1.0 / max(could, 1e-30));
+  words[rest_at(n)] = floatBitsToUint((could - sum) / max(all_weights, 1e-30));
 #endif
 #endif
 #ifdef SWEEP
@@ -117,7 +127,7 @@ void main() {
   sweep(line, first + c, count, list % 2 == 1, at, at, false);
   for (int k = 0; k < count; ++k) {
     int v = particle_of(line, first + c + k);
-    taken[at + v].xyz *= uintBitsToFloat(words[share_at(at + v)]) * particle_rgb(particle_albedo, v);
+    taken[at + v].xyz *= uintBitsToFloat(words[share_at(line * particle_count + v)]) * particle_rgb(particle_albedo, v);
   }
 #endif
 #endif
@@ -132,7 +142,10 @@ void main() {
   int directions = 2 * line_count;
   if (n >= directions * particle_count) return;
   int row = directions * (n / particle_count);
-  for (int d = 0; d < directions; ++d) sum = fma(vec3(matrix_values[row + d]), taken[d * particle_count + v].xyz, sum);
+  for (int d = 0; d < directions; ++d) {
+    float sent = matrix_values[row + d] + uintBitsToFloat(words[rest_at(d / 2 * particle_count + v)]);
+    sum = fma(vec3(sent), taken[d * particle_count + v].xyz, sum);
+  }
 #endif
   vec3 now = first_sources[n].xyz + sum;
   vec3 change = abs(now - sources[n].xyz);

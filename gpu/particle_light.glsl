@@ -1,4 +1,4 @@
-// Two programs: ARRIVING, what arrives of a light at a particle, an invocation a light and a particle; FIRST, what is scattered of
+// Two programs: ARRIVING, what arrives of a light at a particle, divided by what all directions have of the phase function, an invocation a light and a particle; FIRST, what is scattered of
 // all lights, an invocation a direction and a particle.
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
@@ -26,7 +26,13 @@ void main() {
     depth = fma(length, network_extinction, depth);
     value = 1.0 / (r * r);
   }
-  arriving[n] = value * transmittance(depth);
+  value *= transmittance(depth);
+  if (phase_kind != 0) {
+    float sum = 0.0;
+    for (int d = 0; d < 2 * line_count; ++d) sum += phase_value(phase_kind, phase_g, -dot3(way, network_direction(d)));
+    value *= float(2 * line_count) * phase_isotropic() / sum;
+  }
+  arriving[n] = value;
 #endif
 #ifdef FIRST
   if (n >= particle_count * (phase_kind == 0 ? 1 : 2 * line_count)) return;

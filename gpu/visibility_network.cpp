@@ -13,9 +13,9 @@ void run(const VisibilityNetwork& a, StepRunner& r, const Progress& progress) {
   bind_network(
       r, a, {.slots = static_cast<std::int32_t>(shape.slots), .unit = a.unit, .extinction = a.extinction, .samples = a.samples});
   r.storage(0, a.links);
-  // Counts and what is given out of them begin with 0.
+  // Counts, sums and what is given out of them begin with 0.
   const std::size_t pairs = shape.lines * shape.particles;
-  const std::vector<std::int32_t> zeros(2 * shape.lines * shape.slots + 4 * pairs, 0);
+  const std::vector<std::int32_t> zeros(4 * shape.lines * shape.slots + 4 * pairs, 0);
   r.fill(scratch_number, std::as_bytes(std::span(zeros)));
   r.bind(3, scratch_number);
   const auto each = [&](const char* define, std::size_t items) {

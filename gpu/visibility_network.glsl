@@ -9,11 +9,14 @@
 layout(std430, binding = 0) buffer LinkBuffer { float links[]; };
 layout(std430, binding = 3) buffer Scratch { int scratch[]; };
 
-// Of a pixel: how many particles; how many have been put in its list. Of a particle: its pixel and where along the line it is. Of
+const int sum_unit = lattice_length / 8;  // as cpu/visibility_network.cpp's
+
+// Of a pixel: how many particles; how many have been put in its list; where in it they are, summed up, across and down. Of a particle: its pixel and where along the line it is. Of
 // a place in the lists: a particle of that list; its pixel.
 int count_at(int line, int c) { return line * slots + c; }
 int given_at(int line, int c) { return (line_count + line) * slots + c; }
-int pair_at(int which, int line, int k) { return 2 * line_count * slots + (which * line_count + line) * particle_count + k; }
+int within_at(int which, int line, int c) { return ((2 + which) * line_count + line) * slots + c; }
+int pair_at(int which, int line, int k) { return 4 * line_count * slots + (which * line_count + line) * particle_count + k; }
 
 int dot_of(ivec3 a, ivec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
@@ -50,8 +53,8 @@ float depth_between(int line, int c, bool open_before, float before, bool open_a
   ivec2 number = ivec2(c % columns, c / columns);
   vec2 at;
   for (int k = 0; k < 2; ++k) {
-    int pixel = line_field(line, 11 + k);
-    at[k] = (float(line_field(line, 9 + k) + number[k] * pixel) + 0.5 * float(pixel)) * (unit / float(lattice_length));
+    float within = (float(scratch[within_at(k, line, c)]) / float(scratch[count_at(line, c)]) + 0.5) * float(sum_unit);
+    at[k] = (float(line_field(line, 9 + k) + number[k] * line_field(line, 11 + k)) + within) * (unit / float(lattice_length));
   }
   float depth = 0.0;
 #ifdef WITH_GAUSSIANS
@@ -109,12 +112,16 @@ void main() {
 #endif
 #ifdef COUNT
   ivec3 p = ivec3(particle_rgb(0, k));
-  int column = (dot_of(line_axis(line, 3), p) - line_field(line, 9)) / line_field(line, 11);
-  int row = (dot_of(line_axis(line, 6), p) - line_field(line, 10)) / line_field(line, 12);
+  int across = dot_of(line_axis(line, 3), p) - line_field(line, 9);
+  int down = dot_of(line_axis(line, 6), p) - line_field(line, 10);
+  int column = across / line_field(line, 11);
+  int row = down / line_field(line, 12);
   int c = column + line_field(line, 13) * row;
   scratch[pair_at(0, line, k)] = c;
   scratch[pair_at(1, line, k)] = dot_of(line_axis(line, 0), p);
   atomicAdd(scratch[count_at(line, c)], 1);
+  atomicAdd(scratch[within_at(0, line, c)], (across - column * line_field(line, 11)) / sum_unit);
+  atomicAdd(scratch[within_at(1, line, c)], (down - row * line_field(line, 12)) / sum_unit);
 #endif
 #ifdef FILL
   int c = scratch[pair_at(0, line, k)];

@@ -15,7 +15,8 @@ namespace airlight {
 // Multiple scattering among the particles (Szirmay-Kalos et al. 2005, 3.3). A round sweeps every list from end to end, both ways,
 // so that light goes through all of the medium and scatters once more: it is a whole order of scattering. Along a link the source
 // is the mean of its ends; a particle takes half of what its two links take (link_shares() in common/formulas/network.h) and
-// gives all of that, times its albedo, so that at albedo 1 as much light leaves the medium as sources put into it. As printed, a
+// gives all of that, times its albedo, so that at albedo 1 as much light leaves the medium as sources put into it. With a phase
+// function it sends the mean of the radiance that it takes, weighed by that, and evenly what this leaves. As printed, a
 // particle's opacity is that of the link before it in whatever direction, and energy is lost.
 //
 // `gradients`: conjugate gradients (gradients.h) in place of a sum of orders, for an isotropic phase function alone: a round

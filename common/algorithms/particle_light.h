@@ -11,7 +11,7 @@ namespace airlight {
 
 // The source of each particle before any light goes from one to another: what it scatters of the lights, attenuated by the medium
 // on their way, and what it emits. Of an isotropic phase function one source a particle, else one in each direction: both ways
-// of each line, that along it first.
+// of each line, that along it first; together as much of each light as an isotropic one has.
 struct ParticleLight {
   Buffer particles, lines;
   Buffer voxels;  // the grid's, with a grid

@@ -11,7 +11,8 @@ namespace airlight {
 
 // Which particles light meets one after another along each line of each bundle, and what the links between them do to it
 // (Szirmay-Kalos et al. 2005, 3.1): particles are projected along the bundle, those of a pixel are sorted in depth, and are taken
-// to lie on the line through its centre, whose optical depths are exact in Gaussians. Places are metres from the middle of the
+// to lie on one line, through the mean of their places in it, whose optical depths are exact in Gaussians. (Through the pixel's
+// centre it has three times the error, most of it light that is missing.) Places are metres from the middle of the
 // medium, whatever the camera does.
 struct VisibilityNetwork {
   Buffer particles, lines;  // common/algorithms/network.h

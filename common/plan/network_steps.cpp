@@ -19,9 +19,10 @@ namespace airlight {
 
 namespace {
 
+// Lines a quarter closer than particles in a list: of windows from 0.6 to 2 times the cube root that leaves the least error.
 int window_of(int particles) {
-  int side = 1;  // the nearest to the cube root: lists of that length
-  while (side * side * side + (side + 1) * (side + 1) * (side + 1) < 2 * particles) ++side;
+  int side = 1;
+  while (side * side * side + (side + 1) * (side + 1) * (side + 1) < particles * (2 * 125) / 64) ++side;
   return side;
 }
 

@@ -108,8 +108,8 @@ void refuses_size(const std::string& backend, const std::string& directions, con
 
 TEST(IlluminationNetwork, RefusesWhatIsTooLarge) {
   refuses_size<InputError>("cpu", "1024", {PhaseKind::henyey_greenstein, 0.5},
-                           "setting particles: the network of 100000 particles and 1024 directions would take 4126 MiB, ");
-  refuses_size<MachineError>("gl", "256", {}, "visibility_network: takes a buffer of 250 MiB, ");
+                           "setting particles: the network of 100000 particles and 1024 directions would take 4140 MiB, ");
+  refuses_size<MachineError>("gl", "256", {}, "visibility_network: takes a buffer of 253 MiB, ");
 }
 
 }  // namespace
