@@ -14,13 +14,14 @@ namespace {
 
 constexpr std::size_t batch = 64;  // particles
 
-// The optical depth of each particle's share of its links, times the pixel's area, one way: added.
+// The optical depth of each particle's share of its links, times the list's area, one way: added.
 void add_weights(const Links& links, float* weights) {
   links.each_list([&](std::size_t at, std::size_t n) {
+    const float area = links.area(at, n);
     for (std::size_t k = 0; k < n; ++k) {
       const float before = links.depth[at + k] * (k == 0 ? 1.0F : 0.5F);
       const float after = links.depth[at + k + 1] * (k + 1 == n ? 1.0F : 0.5F);
-      weights[links.particle_at(at + k)] += links.area * (before + after);
+      weights[links.particle_at(at + k)] += area * (before + after);
     }
   });
 }
@@ -59,7 +60,7 @@ struct Iteration {
     each_line([&](std::size_t l, std::size_t) { lists[l] = LineLists(links_of(l), n); });
   }
 
-  Links links_of(std::size_t l) const { return {a.shape(), links, lines + l * line_fields, l}; }
+  Links links_of(std::size_t l) const { return {a.shape(), links, l}; }
 
   // body(line, worker)
   template <class Body>

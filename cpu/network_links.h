@@ -28,19 +28,25 @@ inline void add(float* values, std::size_t particle, const Rgb& rgb, float weigh
 struct Links {
   const float *begin, *particle, *depth, *lost, *given, *kept;
   std::size_t slots;
-  float area;  // of a pixel, in the same unit for all bundles
 
-  Links(const NetworkShape& shape, const float* links, const std::int32_t* line, std::size_t l)
+  Links(const NetworkShape& shape, const float* links, std::size_t l)
       : begin(links + l * (shape.slots + 1)),
         particle(links + shape.record(l, link_particle)),
         depth(links + shape.record(l, link_depth)),
         lost(links + shape.record(l, link_lost)),
         given(links + shape.record(l, link_given)),
         kept(links + shape.record(l, link_kept)),
-        slots(shape.slots),
-        area(static_cast<float>(line[line_pixel]) * static_cast<float>(line[line_pixel + 1]) * 0x1p-40F) {}
+        slots(shape.slots) {}
 
   std::size_t particle_at(std::size_t record) const { return static_cast<std::size_t>(particle[record]); }
+
+  // How much of the cross-section a list of n particles stands for: as much as makes its optical depth their mass, in the same
+  // unit for all bundles.
+  float area(std::size_t at, std::size_t n) const {
+    float sum = 0;
+    for (std::size_t k = at; k <= at + n; ++k) sum += depth[k];
+    return static_cast<float>(n) / std::max(sum, 1e-30F);
+  }
 
   // body(first record, number of particles), of each list that has any.
   template <class Body>

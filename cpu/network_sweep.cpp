@@ -83,11 +83,12 @@ static void sweep_both(const LineLists& lists, const float* source, const float*
   for (const ListBlock& block : lists.blocks) {
     const std::int32_t* ends = lists.ends.data() + block.ends;
     const float* shares = lists.shares.data() + block.shares;
+    const Wide area = each_list(block.area);
     along(block, ends, shares, source, sky, sent, [&](int k, const Wide& what) HWY_ATTR { wide_store(what, took + 16 * k); });
     against(
         block, shares, sky + 4, [&](int k) HWY_ATTR { return wide_load(sent + 16 * k); },
         [&](int k, const Wide& what)
-            HWY_ATTR { wide_add(wide_sum(wide_load(took + 16 * k), what), lists.area, ends + 4 * (k + 1), taken); });
+            HWY_ATTR { wide_add(wide_sum(wide_load(took + 16 * k), what), area, ends + 4 * (k + 1), taken); });
   }
 }
 
@@ -95,7 +96,8 @@ static void sweep_way(const LineLists& lists, bool backward, const float* source
   for (const ListBlock& block : lists.blocks) {
     const std::int32_t* ends = lists.ends.data() + block.ends;
     const float* shares = lists.shares.data() + block.shares;
-    const auto take = [&](int k, const Wide& what) HWY_ATTR { wide_add(what, lists.area, ends + 4 * (k + 1), taken); };
+    const Wide area = each_list(block.area);
+    const auto take = [&](int k, const Wide& what) HWY_ATTR { wide_add(what, area, ends + 4 * (k + 1), taken); };
     if (backward) {
       against(
           block, shares, sky, [&](int k) HWY_ATTR { return wide_at(source, ends + 4 * k); }, take);
@@ -114,7 +116,7 @@ namespace airlight {
 HWY_EXPORT(sweep_both);
 HWY_EXPORT(sweep_way);
 
-LineLists::LineLists(const Links& links, std::size_t particles) : area(links.area) {
+LineLists::LineLists(const Links& links, std::size_t particles) {
   struct List {
     std::size_t first, count;
   };
@@ -126,13 +128,14 @@ LineLists::LineLists(const Links& links, std::size_t particles) : area(links.are
   shares.reserve(3 * 5 * (particles + lists.size()) / 4);
   for (std::size_t begin = 0; begin < lists.size(); begin += lists_abreast) {
     const std::size_t width = lists[begin].count + 1;
-    ListBlock block{ends.size(), shares.size(), static_cast<int>(width), {}};
+    ListBlock block{ends.size(), shares.size(), static_cast<int>(width), {}, {}};
     most = std::max(most, width);
     ends.resize(ends.size() + lists_abreast * (width + 1), static_cast<std::int32_t>(particles));
     shares.resize(shares.size() + 3 * lists_abreast * width, 0.0F);
     for (std::size_t i = 0; i < lists_abreast && begin + i < lists.size(); ++i) {
       const auto [at, n] = lists[begin + i];
       block.last[i] = static_cast<float>(n);
+      block.area[i] = links.area(at, n);
       for (std::size_t k = 0; k < n + 2; ++k) {
         const std::size_t particle = std::clamp<std::size_t>(k, 1, n) - 1;
         ends[block.ends + lists_abreast * k + i] = static_cast<std::int32_t>(links.particle_at(at + particle));

@@ -18,6 +18,7 @@ struct ListBlock {
   std::size_t ends, shares;   // where they begin in LineLists
   int links;                  // of the longest
   float last[lists_abreast];  // number of the last link of each
+  float area[lists_abreast];  // of each (Links::area())
 };
 
 // The lists of one bundle in the order in which they are swept. Links go from end k to end k + 1 of ends: the particles, the
@@ -27,7 +28,6 @@ struct LineLists {
   std::vector<ListBlock> blocks;
   std::vector<std::int32_t> ends;  // of each block, links + 1 times four
   std::vector<float> shares;       // of each block, links times lost of four lists, given, kept
-  float area = 0;                  // of a pixel
   std::size_t most = 0;            // links
 
   LineLists() = default;
@@ -35,7 +35,7 @@ struct LineLists {
   std::size_t scratch_floats() const { return 2 * 4 * lists_abreast * (most + 1); }
 };
 
-// What particles take of the light along all lists, times the area of a pixel, is added to `taken`. Sources and what is taken are
+// What particles take of the light along all lists, times the list's area, is added to `taken`. Sources and what is taken are
 // rgb and an unused float a particle, with one particle more than there are; so is `sky`, what light begins with each way.
 void sweep_both_ways(const LineLists&, const float* source, const float* sky, float* scratch, float* taken, Simd);
 void sweep_one_way(const LineLists&, bool backward, const float* source, const float* sky, float* taken, Simd);

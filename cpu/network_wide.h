@@ -69,9 +69,9 @@ HWY_INLINE Wide wide_at(const float* rows, const std::int32_t* which) {
 }
 
 // Adds to four rows, one after the other: the rows may be the same.
-HWY_INLINE void wide_add(const Wide& w, Real weight, const std::int32_t* which, float* rows) {
+HWY_INLINE void wide_add(const Wide& w, const Wide& weight, const std::int32_t* which, float* rows) {
   HWY_ALIGN float values[16];
-  for (int q = 0; q < wide_vectors; ++q) store(weight * w.v[q], values + q * lanes);
+  for (int q = 0; q < wide_vectors; ++q) store(weight.v[q] * w.v[q], values + q * lanes);
   for (int i = 0; i < 4; ++i) {
     float* row = rows + 4 * static_cast<std::ptrdiff_t>(which[i]);
 #if HWY_TARGET == HWY_SCALAR

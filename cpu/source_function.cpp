@@ -63,24 +63,28 @@ void add_scaled(float (&sum)[3], const float* beam, float weight) {
 
 // Where the last node lay, from which the next one is not far.
 struct Cursor {
+  std::size_t number[2] = {0, 0};                   // of its pixel, across and down
   std::size_t pixel = ~std::size_t{0}, before = 0;  // how many particles lie before it on its line
 };
 
 // Adds what arrives at the node along one bundle, each way with its weight. `sky`: what does both ways where nothing is met.
-void add_beams(const Links& links, const std::int32_t* line, const Beams& beams, const float* sky, const Node& node,
-               float forward, float backward, Cursor& cursor, float (&sum)[3]) {
+void add_beams(const Links& links, const std::int32_t* line, const std::int32_t* edges, const Beams& beams, const float* sky,
+               const Node& node, float forward, float backward, Cursor& cursor, float (&sum)[3]) {
   const auto nothing_met = [&] {
     add_scaled(sum, sky, forward);
     add_scaled(sum, sky + 4, backward);
   };
-  std::size_t pixel[2];
+  float width[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::int32_t across = dot_of(line + (k == 0 ? line_across : line_down), node) - line[line_begin + k];
-    const std::int32_t number = across / line[line_pixel + k];
-    if (across < 0 || number >= line[line_pixels + k]) return nothing_met();
-    pixel[k] = static_cast<std::size_t>(number);
+    const std::int32_t across = dot_of(line + (k == 0 ? line_across : line_down), node);
+    const std::int32_t *first = edges + (k == 0 ? 0 : line[line_pixels] + 1), *last = first + line[line_pixels + k];
+    if (across < *first || across >= *last) return nothing_met();
+    std::size_t& number = cursor.number[k];
+    while (across < first[number]) --number;
+    while (across >= first[number + 1]) ++number;
+    width[k] = static_cast<float>(first[number + 1] - first[number]);
   }
-  const std::size_t c = pixel[0] + static_cast<std::size_t>(line[line_pixels]) * pixel[1];
+  const std::size_t c = cursor.number[0] + static_cast<std::size_t>(line[line_pixels]) * cursor.number[1];
   const auto first = static_cast<std::size_t>(links.begin[c]), n = static_cast<std::size_t>(links.begin[c + 1]) - first;
   if (n == 0) return nothing_met();
   const std::size_t at = first + c;
@@ -95,10 +99,9 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
   while (k > 0 && begin[static_cast<std::ptrdiff_t>(k) - 1] > here) --k;
   const float *along = beams.forward.data() + 4 * at, *against = beams.backward.data() + 4 * at;
   // Between particles k - 1 and k. Outside all, light fades out to what enters or leaves within about the width of a pixel.
-  const auto width = static_cast<float>(line[line_pixel]);
   if (k == 0) {
     const auto away = static_cast<float>(begin[0] - here);
-    const float share = away / (away + width);
+    const float share = away / (away + width[0]);
     add_scaled(sum, sky, forward * share);
     add_scaled(sum, along, forward * (1 - share));
     add_scaled(sum, against + 4, backward * (1 - share));
@@ -107,7 +110,7 @@ void add_beams(const Links& links, const std::int32_t* line, const Beams& beams,
   }
   if (k == n) {
     const auto away = static_cast<float>(here - begin[static_cast<std::ptrdiff_t>(n) - 1]);
-    const float share = away / (away + width);
+    const float share = away / (away + width[0]);
     add_scaled(sum, along + 4 * (n - 1), forward * (1 - share));
     add_scaled(sum, along + 4 * n, forward * share);
     add_scaled(sum, against + 4 * n, backward * (1 - share));
@@ -151,8 +154,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
     workers.each(static_cast<int>(count), [&](int n, int) {
       const std::size_t l = first + static_cast<std::size_t>(n), of_a_way = isotropic ? 0 : 4 * shape.particles;
       const std::int32_t* line = lines + line_fields * l;
-      beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), line, l), line, particles,
-                                              sent + of_a_way * 2 * l, sent + of_a_way * (2 * l + 1), sky.data() + 8 * l, shape);
+      beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), l), line, particles, sent + of_a_way * 2 * l,
+                                              sent + of_a_way * (2 * l + 1), sky.data() + 8 * l, shape);
     });
     workers.each(static_cast<int>(ny * nz), [&](int row, int) {
       const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny;
@@ -171,7 +174,7 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
       // Each node has its sum over the lines in their order; nodes next to each other lie next to each other on a line.
       for (std::size_t n = 0; n < count; ++n) {
         const std::int32_t* line = lines + line_fields * (first + n);
-        const Links links(shape, view.floats(a.links), line, first + n);
+        const Links links(shape, view.floats(a.links), first + n);
         const glm::vec3 w = direction_of(line);
         Cursor cursor;
         for (std::size_t i = 0; i < nx; ++i) {
@@ -185,7 +188,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
           }
           float* out = sums.data() + 4 * (i + nx * (j + ny * k));
           float sum[3] = {out[0], out[1], out[2]};
-          add_beams(links, line, beams[n], sky.data() + 8 * (first + n), nodes[i], forward, backward, cursor, sum);
+          add_beams(links, line, lines + shape.edges(first + n), beams[n], sky.data() + 8 * (first + n), nodes[i], forward,
+                    backward, cursor, sum);
           std::copy_n(sum, 3, out);
           out[3] += forward + backward;
         }

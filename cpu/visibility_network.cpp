@@ -140,9 +140,11 @@ struct Worker {
   std::vector<float> along, erfs, depths;
 };
 
-void line_links(const VisibilityNetwork& a, const float* particles, const std::int32_t* line, const float* voxels, std::size_t l,
+void line_links(const VisibilityNetwork& a, const float* particles, const std::int32_t* lines, const float* voxels, std::size_t l,
                 Worker& w, float* out, Simd simd) {
   const NetworkShape shape = a.shape();
+  const std::int32_t* line = lines + line_fields * l;
+  const std::int32_t columns = line[line_pixels], *across = lines + shape.edges(l), *down = across + columns + 1;
   const float unit = a.unit / lattice_length;
   w.places.resize(shape.particles);
   w.pixels.resize(shape.particles);
@@ -154,12 +156,12 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
   for (std::size_t v = 0; v < shape.particles; ++v) {
     std::int32_t p[3];
     place_of(v, p);
-    const std::int32_t across = dot_of(line + line_across, p) - line[line_begin],
-                       down = dot_of(line + line_down, p) - line[line_begin + 1];
-    const std::int32_t column = across / line[line_pixel], row = down / line[line_pixel + 1];
-    w.pixels[v] = static_cast<std::size_t>(column + line[line_pixels] * row);
-    w.within[0][w.pixels[v]] += (across - column * line[line_pixel]) / sum_unit;
-    w.within[1][w.pixels[v]] += (down - row * line[line_pixel + 1]) / sum_unit;
+    const std::int32_t x = dot_of(line + line_across, p), y = dot_of(line + line_down, p);
+    const auto column = static_cast<std::size_t>(std::upper_bound(across, across + columns, x) - across - 1),
+               row = static_cast<std::size_t>(std::upper_bound(down, down + line[line_pixels + 1], y) - down - 1);
+    w.pixels[v] = column + static_cast<std::size_t>(columns) * row;
+    w.within[0][w.pixels[v]] += (x - across[column]) / sum_unit;
+    w.within[1][w.pixels[v]] += (y - down[row]) / sum_unit;
     ++w.ends[w.pixels[v] + 1];
   }
   for (std::size_t c = 0; c < shape.slots; ++c) w.ends[c + 1] += w.ends[c];  // where pixels begin, for now
@@ -190,14 +192,12 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
       w.along.assign(n + 2 * padding, 0.0F);
       w.erfs.assign(n + 2 + 2 * padding, 0.0F);
       w.depths.assign(n + 1 + padding, 0.0F);
-      const auto pixel = static_cast<std::int32_t>(c);
-      const auto mean = [&](int which, std::int32_t number) {
-        const std::int32_t begins = line[line_begin + which] + number * line[line_pixel + which];
+      const auto mean = [&](int which, std::int32_t edge) {
         const float within = (static_cast<float>(w.within[which][c]) / static_cast<float>(n) + 0.5F) * sum_unit;
-        return (static_cast<float>(begins) + within) * unit;
+        return (static_cast<float>(edge) + within) * unit;
       };
-      list.across = mean(0, pixel % line[line_pixels]);
-      list.down = mean(1, pixel / line[line_pixels]);
+      list.across = mean(0, across[c % static_cast<std::size_t>(columns)]);
+      list.down = mean(1, down[c / static_cast<std::size_t>(columns)]);
       list.count = static_cast<int>(n);
       list.along = w.along.data() + padding;
       list.erfs = w.erfs.data();
@@ -227,8 +227,8 @@ void run_volume(const VisibilityNetwork& a, const BufferView& view, Workers& wor
   std::vector<Worker> scratch(static_cast<std::size_t>(workers.threads()));
   const std::int32_t* lines = view.integers(a.lines);
   workers.each(a.line_count, [&](int l, int worker) {
-    line_links(a, view.floats(a.particles), lines + static_cast<std::ptrdiff_t>(line_fields) * l, view.floats(a.voxels),
-               static_cast<std::size_t>(l), scratch[static_cast<std::size_t>(worker)], view.made(a.links), simd);
+    line_links(a, view.floats(a.particles), lines, view.floats(a.voxels), static_cast<std::size_t>(l),
+               scratch[static_cast<std::size_t>(worker)], view.made(a.links), simd);
   });
 }
 

@@ -20,13 +20,33 @@ uniform int first_item;  // of this dispatch
 int item() { return first_item + int(gl_WorkGroupID.x) * 64 + int(gl_LocalInvocationIndex); }
 
 const int lattice_length = 8192;
-const int line_fields = 16;
+const int line_fields = 12;
 const int particle_albedo = 3;
 const int particle_glow = 6;
 const int link_planes = 5;
 
 int line_field(int line, int k) { return line_values[line * line_fields + k]; }
 ivec3 line_axis(int line, int k) { return ivec3(line_field(line, k), line_field(line, k + 1), line_field(line, k + 2)); }
+// Edge number k of a line's pixels, those across before those down.
+int edge_of(int line, int k) { return line_values[line_count * line_fields + line * (slots + 3) + k]; }
+// Where a line's pixels across (0) or down (1) begin among its edges, and how many there are.
+int first_edge(int line, int which) { return which == 0 ? 0 : line_field(line, 9) + 1; }
+int pixels_of(int line, int which) { return line_field(line, 9 + which); }
+// The pixel that holds a place between the first edge and the last.
+int pixel_of(int line, int which, int place) {
+  int first = first_edge(line, which);
+  int low = 0;
+  int high = pixels_of(line, which);
+  while (high - low > 1) {
+    int middle = (low + high) / 2;
+    if (edge_of(line, first + middle) <= place) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
 // Unit direction number d: both ways of each line in turn.
 vec3 network_direction(int d) {
   vec3 w = vec3(line_axis(d / 2, 0));

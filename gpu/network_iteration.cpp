@@ -58,8 +58,8 @@ void run(const NetworkIteration& a, StepRunner& r, const Progress& progress) {
   };
 
   // What changed of each particle and the sum of what it sends; weights of each line's links, and what becomes of them;
-  // the sky.
-  r.reserve(words_number, sizeof(float) * (2 * n + n * shape.lines + sources + 4 * directions));
+  // the sky; areas of lists.
+  r.reserve(words_number, sizeof(float) * (2 * n + n * shape.lines + sources + 4 * directions + shape.lines * shape.slots));
   r.storage(0, a.links);
   r.storage(3, a.sources);
   r.bind(5, words_number);

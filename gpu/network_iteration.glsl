@@ -1,5 +1,5 @@
-// Eight programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the optical depth of each
-// particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by, and what of it goes evenly in all directions (cpu/network_iteration.cpp). SWEEP: light along
+// Eight programs. START: sources are the first ones. PHASES: the phase function between two directions, an invocation a pair. WEIGHTS: the area that a list stands for and the optical depth of
+// each particle's share of its links, an invocation a list. SHARES: what the light that a particle takes is divided by, and what of it goes evenly in all directions (cpu/network_iteration.cpp). SWEEP: light along
 // a list. SCATTER: the new source of a particle, in a direction unless ISOTROPIC. SUMS: what changed of
 // a particle, and what it sends, over all directions and channels. TAKEN: what a particle takes along all lines, ISOTROPIC.
 #include "gpu/dialect.glsl"
@@ -9,7 +9,7 @@
 layout(std430, binding = 0) readonly buffer LinkBuffer { float links[]; };
 layout(std430, binding = 3) buffer SourceBuffer { vec4 sources[]; };
 layout(std430, binding = 4) buffer TakenBuffer { vec4 taken[]; };  // of each line and particle, or each direction and particle; a: a source's change
-layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // change and sum of each particle, weights, shares, sky
+layout(std430, binding = 5) buffer WordBuffer { uint words[]; };   // change and sum of each particle, weights, shares, sky, areas
 layout(std430, binding = 6) readonly buffer FirstBuffer { vec4 first_sources[]; };
 layout(std430, binding = 7) buffer MatrixBuffer { float matrix_values[]; };
 
@@ -26,13 +26,13 @@ vec3 sky_of(int d) {
   return vec3(uintBitsToFloat(words[k]), uintBitsToFloat(words[k + 1]), uintBitsToFloat(words[k + 2]));
 }
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
-float area_of(int line) { return float(line_field(line, 11)) * float(line_field(line, 12)) * 9.094947017729282e-13; }  // 2^-40
+int area_at(int line, int c) { return sky_at(2 * line_count) + line * slots + c; }
 
 // Light along one way of a list of n particles from `record` on; what they take is set, or added to.
-void sweep(int line, int record, int n, bool backward, int source, int to, bool adds) {
+void sweep(int line, int c, int record, int n, bool backward, int source, int to, bool adds) {
   vec3 beam = sky_of(2 * line + (backward ? 1 : 0));
   vec3 waiting = vec3(0.0);  // of the particle that the last link led to
-  float area = area_of(line);
+  float area = uintBitsToFloat(words[area_at(line, c)]);
   for (int step = 0; step <= n; ++step) {
     int k = record + (backward ? n - step : step);
     int before = particle_of(line, k == record ? k : k - 1);
@@ -75,11 +75,15 @@ void main() {
   int c = n % slots;
   int first = int(links[begin_at(line, c)]);
   int last = int(links[begin_at(line, c + 1)]);
+  float all = 0.0;
+  for (int k = first; k <= last; ++k) all += links[record_at(line, 1) + k + c];
+  float area = float(last - first) / max(all, 1e-30);
+  words[area_at(line, c)] = floatBitsToUint(area);
   for (int k = first; k < last; ++k) {
     int record = record_at(line, 1) + k + c;
     float before = links[record] * (k == first ? 1.0 : 0.5);
     float after = links[record + 1] * (k + 1 == last ? 1.0 : 0.5);
-    words[weight_at(line, particle_of(line, k + c))] = floatBitsToUint(area_of(line) * (before + after));
+    words[weight_at(line, particle_of(line, k + c))] = floatBitsToUint(area * (before + after));
   }
 #endif
 #ifdef SHARES
@@ -120,11 +124,11 @@ void main() {
   int count = int(links[begin_at(line, c + 1)]) - first;
   if (count == 0) return;
 #ifdef ISOTROPIC
-  sweep(line, first + c, count, false, 0, line * particle_count, false);
-  sweep(line, first + c, count, true, 0, line * particle_count, true);
+  sweep(line, c, first + c, count, false, 0, line * particle_count, false);
+  sweep(line, c, first + c, count, true, 0, line * particle_count, true);
 #else
   int at = list * particle_count;
-  sweep(line, first + c, count, list % 2 == 1, at, at, false);
+  sweep(line, c, first + c, count, list % 2 == 1, at, at, false);
   for (int k = 0; k < count; ++k) {
     int v = particle_of(line, first + c + k);
     taken[at + v].xyz *= uintBitsToFloat(words[share_at(line * particle_count + v)]) * particle_rgb(particle_albedo, v);

@@ -19,7 +19,7 @@ layout(std430, binding = 1) buffer RadianceBuffer { vec4 radiances[]; };
 
 #ifdef RADIANCE
 layout(std430, binding = 2) readonly buffer SourceBuffer { vec4 particle_sources[]; };
-layout(std430, binding = 3) readonly buffer LineBuffer { ivec4 lines[]; };  // four a line (common/algorithms/network.h)
+layout(std430, binding = 3) readonly buffer LineBuffer { ivec4 lines[]; };  // three a line (common/algorithms/network.h)
 
 uniform int first_item;  // of this dispatch
 
@@ -35,7 +35,7 @@ void main() {
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int line = 0; line < line_count; ++line) {
-    vec3 w = vec3(lines[4 * line].xyz);
+    vec3 w = vec3(lines[3 * line].xyz);
     float mu = dot3(w * (1.0 / sqrt(dot3(w, w))), to);
     float along = direction_weight(mu, inverse_reach);
     float against = direction_weight(-mu, inverse_reach);

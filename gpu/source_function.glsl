@@ -46,12 +46,12 @@ vec3 arriving(int line, ivec3 place, float forward, float backward) {
   vec3 back = sky[2 * line + 1].xyz;
   ivec2 pixel;
   for (int k = 0; k < 2; ++k) {
-    int across = dot_of(line_axis(line, 3 + 3 * k), place) - line_field(line, 9 + k);
-    if (across < 0) return forward * into + backward * back;
-    pixel[k] = across / line_field(line, 11 + k);
-    if (pixel[k] >= line_field(line, 13 + k)) return forward * into + backward * back;
+    int across = dot_of(line_axis(line, 3 + 3 * k), place);
+    int first = first_edge(line, k);
+    if (across < edge_of(line, first) || across >= edge_of(line, first + pixels_of(line, k))) return forward * into + backward * back;
+    pixel[k] = pixel_of(line, k, across);
   }
-  int c = pixel.x + line_field(line, 13) * pixel.y;
+  int c = pixel.x + pixels_of(line, 0) * pixel.y;
   int first = int(links[begin_at(line, c)]);
   int n = int(links[begin_at(line, c + 1)]) - first;
   if (n == 0) return forward * into + backward * back;
@@ -67,7 +67,7 @@ vec3 arriving(int line, ivec3 place, float forward, float backward) {
       end = middle;
     }
   }
-  float width = float(line_field(line, 11));
+  float width = float(edge_of(line, pixel.x + 1) - edge_of(line, pixel.x));
   if (k == 0) {
     float away = float(along_of(line, at) - here);
     float share = away / (away + width);

@@ -49,12 +49,12 @@ float depth_between(int line, int c, bool open_before, float before, bool open_a
   vec3 across = axis_of(line, 3);
   vec3 down = axis_of(line, 6);
   vec3 way = axis_of(line, 0);
-  int columns = line_field(line, 13);
+  int columns = pixels_of(line, 0);
   ivec2 number = ivec2(c % columns, c / columns);
   vec2 at;
   for (int k = 0; k < 2; ++k) {
     float within = (float(scratch[within_at(k, line, c)]) / float(scratch[count_at(line, c)]) + 0.5) * float(sum_unit);
-    at[k] = (float(line_field(line, 9 + k) + number[k] * line_field(line, 11 + k)) + within) * (unit / float(lattice_length));
+    at[k] = (float(edge_of(line, first_edge(line, k) + number[k])) + within) * (unit / float(lattice_length));
   }
   float depth = 0.0;
 #ifdef WITH_GAUSSIANS
@@ -112,16 +112,16 @@ void main() {
 #endif
 #ifdef COUNT
   ivec3 p = ivec3(particle_rgb(0, k));
-  int across = dot_of(line_axis(line, 3), p) - line_field(line, 9);
-  int down = dot_of(line_axis(line, 6), p) - line_field(line, 10);
-  int column = across / line_field(line, 11);
-  int row = down / line_field(line, 12);
-  int c = column + line_field(line, 13) * row;
+  int across = dot_of(line_axis(line, 3), p);
+  int down = dot_of(line_axis(line, 6), p);
+  int column = pixel_of(line, 0, across);
+  int row = pixel_of(line, 1, down);
+  int c = column + pixels_of(line, 0) * row;
   scratch[pair_at(0, line, k)] = c;
   scratch[pair_at(1, line, k)] = dot_of(line_axis(line, 0), p);
   atomicAdd(scratch[count_at(line, c)], 1);
-  atomicAdd(scratch[within_at(0, line, c)], (across - column * line_field(line, 11)) / sum_unit);
-  atomicAdd(scratch[within_at(1, line, c)], (down - row * line_field(line, 12)) / sum_unit);
+  atomicAdd(scratch[within_at(0, line, c)], (across - edge_of(line, column)) / sum_unit);
+  atomicAdd(scratch[within_at(1, line, c)], (down - edge_of(line, first_edge(line, 1) + row)) / sum_unit);
 #endif
 #ifdef FILL
   int c = scratch[pair_at(0, line, k)];

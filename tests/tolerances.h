@@ -159,6 +159,7 @@ inline constexpr Tolerance tolerances[] = {
     {"exact_float", 2e-7, "relative; one or two roundings of a float"},
     {"float_ulp_of_double", 1e-6, "ULP of a float: exp_ and log_ in double are the C library's"},
     {"truth_network", 0.02, "relative RMSE of illumination-network with 4096 particles and 256 directions: what it promises"},
+    {"truth_network_far", 0.08, "relative RMSE of the default where small clouds lie far apart: 0.05 in paths known to 0.01"},
     {"truth_network_sky", 0.05, "relative RMSE of illumination-network's default under an environment: the same promise"},
     {"truth_network_forward", 0.03,
      "relative, of the mean with 1024 particles and 128 directions where light scatters forward (g = 0.6): that of the paths is "
@@ -171,7 +172,7 @@ inline constexpr Tolerance tolerances[] = {
     {"network_left_out", 0.15,
      "relative: of what rounds are told to leave out, of which few are known to be a geometric series yet"},
     {"network_furnace", 3e-5, "relative: three times what the rounds are told to leave out, and roundings"},
-    {"network_furnace_forward", 0.06,
+    {"network_furnace_forward", 0.015,
      "relative: the phase function's values between one of 40 directions and all others do not add up to the same for each"},
     {"network_sky_all", 1e-4, "relative: quadratures of the same piecewise linear image, 256 and 400 columns wide"},
     {"network_sky_way", 0.05,

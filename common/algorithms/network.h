@@ -18,17 +18,10 @@ enum ParticlePlane : int {
   particle_planes = 10
 };
 
-// A bundle of parallel lines, each of which light takes both ways: int32[16]. Direction, and two vectors across it; where the
-// window begins, the size of its pixels, in lattice units times lattice_length, and how many there are, across and down.
-enum LineField : int {
-  line_direction = 0,
-  line_across = 3,
-  line_down = 6,
-  line_begin = 9,
-  line_pixel = 11,
-  line_pixels = 13,
-  line_fields = 16
-};
+// A bundle of parallel lines, each of which light takes both ways: int32[12]. Direction, and two vectors across it; how many
+// pixels its window has across and down. Behind all bundles the edges of the pixels of each, in lattice units times
+// lattice_length: those across, one more than there are, then those down.
+enum LineField : int { line_direction = 0, line_across = 3, line_down = 6, line_pixels = 9, line_fields = 12 };
 
 // Links, a line after another. First, for all lines, where the list of each pixel begins, counted in particles, slots + 1 numbers
 // a line; then for each line five planes of particles + slots records. Pixel c's list of n particles has n + 1 records from
@@ -39,6 +32,9 @@ struct NetworkShape {
   std::size_t particles = 0, lines = 0;
   std::size_t slots = 0;  // pixels of a line's window at most
 
+  // Where a line's edges begin among the integers of all lines, and how many of these there are.
+  std::size_t edges(std::size_t line) const { return line_fields * lines + (slots + 3) * line; }
+  std::size_t line_integers() const { return edges(lines); }
   std::size_t begins() const { return lines * (slots + 1); }
   std::size_t records() const { return particles + slots; }
   std::size_t record(std::size_t line, int plane) const {

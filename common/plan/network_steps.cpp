@@ -43,7 +43,7 @@ std::string_view reason_of(const NetworkIteration& iteration, const KnobValues& 
              : "light from particle to particle, an order of scattering a round: the phase function depends on the direction";
 }
 
-// More than half of the medium is in Gaussians narrower than a cell of the box: lines and nodes stand too far apart for it.
+// More than half of the medium is in Gaussians narrower than a cell: nodes stand too far apart for it.
 bool too_narrow(std::span<const GaussianDensity> gaussians, double cell, bool grid) {
   double narrow = 0, all = 0;
   for (const GaussianDensity& g : gaussians) {
@@ -52,6 +52,26 @@ bool too_narrow(std::span<const GaussianDensity> gaussians, double cell, bool gr
     if (radius < cell) narrow += mass;
   }
   return !grid && narrow > 0.5 * all;
+}
+
+std::int64_t nodes_of(const glm::ivec3& cells) {
+  return std::int64_t{cells.x + 1} * (cells.y + 1) * (cells.z + 1);
+}
+
+// Where nodes of the source function stand: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
+// most, which makes cells finer than all of the medium would. Where the medium is narrower than they are, they are as small as as
+// many nodes as a cube's allow.
+MediumBox source_box(const Scene& scene, std::span<const GaussianDensity> gaussians, int resolution) {
+  MediumBox box = medium_box(scene, resolution, 0.01);
+  if (!too_narrow(gaussians, box.cell, scene.medium.grid.has_value())) return box;
+  const std::int64_t most = nodes_of(glm::ivec3(resolution));
+  for (int finer = resolution; too_narrow(gaussians, 2 * box.cell, false);) {
+    finer += (finer + 7) / 8;
+    const MediumBox next = medium_box(scene, finer, 0.01);
+    if (nodes_of(next.cells) > most) break;
+    box = next;
+  }
+  return box;
 }
 
 }  // namespace
@@ -93,12 +113,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
   refuse_size(particles, directions, network.shape().links() + 2 * values);
   network.links = {{links_id}, bytes(network.shape().links())};
-  frame.plan.steps.push_back(
-      {network,
-       too_narrow(gaussians, box.cell, static_cast<bool>(medium.grid))
-           ? "which particles light meets along each line; most lines miss what is narrower than the cells, and much light with "
-             "it: a larger resolution and more particles help"
-           : "which particles light meets along each line, and what is between them"});
+  frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
 
   // Published and off are the other techniques' step and nothing.
   Buffer sky;
@@ -165,9 +180,7 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
                         .unit = unit,
                         .sources = {}};
   if (!isotropic) source.camera = scene.camera.position - lattice.middle;
-  // Finer than all of the medium would be: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
-  // most.
-  const MediumBox inner = medium_box(scene, static_cast<int>(knobs.number("resolution")), 0.01);
+  const MediumBox inner = source_box(scene, gaussians, static_cast<int>(knobs.number("resolution")));
   const glm::dvec3 corner = glm::floor((inner.corner - lattice.middle) / lattice.unit);
   source.first = corner;
   source.stride = static_cast<int>(std::ceil(inner.cell / lattice.unit));
@@ -175,7 +188,11 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   made.first = lattice.middle + corner * lattice.unit;
   made.spacing = glm::dvec3(source.stride * lattice.unit);
   source.sources = {{sources_id}, bytes(source.floats())};
-  frame.plan.steps.push_back({source, "what there is to scatter toward the camera, everywhere"});
+  frame.plan.steps.push_back(
+      {source, too_narrow(gaussians, inner.cell, static_cast<bool>(medium.grid))
+                   ? "what there is to scatter toward the camera, everywhere; nodes miss most of what is narrower "
+                     "than the cells, and much light with it: a larger resolution helps"
+                   : "what there is to scatter toward the camera, everywhere"});
   made.sources = source.sources;
   return made;
 }

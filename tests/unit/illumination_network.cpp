@@ -59,7 +59,7 @@ void list_matrix(const RanNetwork& ran, std::size_t line, const std::vector<std:
       const double lost = -std::expm1(-way[to].depth);
       const double taken = to == from ? way[to].depth - lost : arriving * lost;
       for (const std::size_t sends : way[from].ends) {
-        for (const std::size_t takes : way[to].ends) add(takes, sends, 0.25 * taken * ran.area(line));
+        for (const std::size_t takes : way[to].ends) add(takes, sends, 0.25 * taken * ran.area(line, list, record));
       }
       arriving = to == from ? lost : arriving * (1 - lost);
     }
@@ -88,7 +88,7 @@ void is_dense_solution(const Scene& scene, bool gradients) {
         list_matrix(ran, line, list, record, backward, [&](std::size_t to, std::size_t from, double x) { taken[to][from] += x; });
       }
       for (std::size_t k = 0; k <= list.size(); ++k) {
-        const double depth = ran.link(line, link_depth, record + k) * ran.area(line);  // half an end, both ways
+        const double depth = ran.link(line, link_depth, record + k) * ran.area(line, list, record);  // half an end, both ways
         weight[list[k == 0 ? 0 : k - 1]] += depth;
         weight[list[k == list.size() ? k - 1 : k]] += depth;
       }
@@ -169,7 +169,7 @@ TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
       list_matrix(ran, line, list, record, d % 2 == 1,
                   [&](std::size_t to, std::size_t from, double x) { taken[d][to][from] += x; });
       for (std::size_t k = 0; k <= list.size(); ++k) {
-        const double depth = 0.5 * ran.link(line, link_depth, record + k) * ran.area(line);
+        const double depth = 0.5 * ran.link(line, link_depth, record + k) * ran.area(line, list, record);
         weight[d][list[k == 0 ? 0 : k - 1]] += depth;
         weight[d][list[k == list.size() ? k - 1 : k]] += depth;
       }
@@ -232,10 +232,11 @@ void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, c
         const std::size_t a = list[k == 0 ? 0 : k - 1], b = list[k == list.size() ? k - 1 : k];
         const double depth = ran.link(line, link_depth, record + k);
         const auto mean = [&](const auto& of) { return 0.5 * (of(a) + of(b)); };
-        in += depth * ran.area(line) * mean([&](std::size_t v) { return static_cast<double>(ran.first[value(d, v)]); });
+        in += depth * ran.area(line, list, record) *
+              mean([&](std::size_t v) { return static_cast<double>(ran.first[value(d, v)]); });
         beam += -std::expm1(-depth) * (mean([&](std::size_t v) { return static_cast<double>(ran.sources[value(d, v)]); }) - beam);
       }
-      out += beam * ran.area(line);
+      out += beam * ran.area(line, list, record);
     });
   }
   std::printf("out / in - 1 = %g after %g rounds\n", out / in - 1, static_cast<double>(ran.residuals[0]));
@@ -282,7 +283,7 @@ void links_are_lines(const NetworkParts& parts) {
   double worst = 0, worst_other = 0;
   for (std::size_t line = 0; line < ran.shape.lines; ++line) {
     std::set<std::size_t> seen;
-    const std::int32_t* l = ran.lines.data() + line * line_fields;
+    const std::int32_t *l = ran.lines.data() + line * line_fields, *edges = ran.lines.data() + ran.shape.edges(line);
     const glm::dvec3 way = ran.axis(line, line_direction), across = ran.axis(line, line_across), down = ran.axis(line, line_down);
     ran.each_list(line, [&](std::size_t c, const std::vector<std::size_t>& list, std::size_t record) {
       const auto unit = static_cast<double>(ran.t.network.unit);
@@ -292,13 +293,13 @@ void links_are_lines(const NetworkParts& parts) {
         EXPECT_TRUE(seen.insert(v).second);
         const glm::dvec3 p = glm::dvec3(ran.particle(0, v), ran.particle(1, v), ran.particle(2, v)) * unit;
         for (const int which : {0, 1}) {
-          const double at = glm::dot(p, which == 0 ? across : down) * lattice_length / unit - l[line_begin + which];
-          const double pixel = l[line_pixel + which], number = static_cast<double>(which == 0 ? c % columns : c / columns);
-          EXPECT_EQ(std::floor((at + 0.5) / pixel), number);
+          const double at = glm::dot(p, which == 0 ? across : down) * lattice_length / unit + 0.5;
+          const std::int32_t* edge = edges + (which == 0 ? c % columns : columns + 1 + c / columns);
+          EXPECT_TRUE(edge[0] <= at && at < edge[1]);
           // Places are summed up in eighths of a lattice unit.
-          const double eighths = std::floor((at + 0.5 - number * pixel) / (lattice_length / 8)) + 0.5;
+          const double eighths = std::floor((at - edge[0]) / (lattice_length / 8)) + 0.5;
           (which == 0 ? x : y) +=
-              ((l[line_begin + which] + number * pixel) / lattice_length + eighths / 8) * unit / static_cast<double>(list.size());
+              (edge[0] + eighths * lattice_length / 8) / lattice_length * unit / static_cast<double>(list.size());
         }
         EXPECT_GE(glm::dot(p, way), before - 1e-9);
         before = glm::dot(p, way);

@@ -44,9 +44,11 @@ class RanNetwork {
     return static_cast<double>(links[shape.record(line, plane) + record]);
   }
   double particle(std::size_t plane, std::size_t v) const { return static_cast<double>(particles[plane * shape.particles + v]); }
-  double area(std::size_t line) const {
-    const std::int32_t* l = lines.data() + line * line_fields;
-    return static_cast<double>(l[line_pixel]) * l[line_pixel + 1];
+  // What a list stands for of the cross-section: its optical depth is to be its particles' mass.
+  double area(std::size_t line, const std::vector<std::size_t>& list, std::size_t record) const {
+    double depth = 0;
+    for (std::size_t k = 0; k <= list.size(); ++k) depth += link(line, link_depth, record + k);
+    return static_cast<double>(list.size()) / depth;
   }
   glm::dvec3 axis(std::size_t line, int field) const {
     const std::int32_t* l = lines.data() + line * line_fields + field;
