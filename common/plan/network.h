@@ -34,7 +34,7 @@ std::vector<float> network_particles(const Scene&, const NetworkFrame&, int coun
 enum class DirectionSet : int { fibonacci, random };
 std::vector<glm::dvec3> network_directions(int count, DirectionSet = DirectionSet::fibonacci);
 
-// The bundles, each with a window of window^2 pixels at most about the particles.
+// The bundles, each with a window of window^2 pixels at most about the particles, which leaves out where none are.
 std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int count, int window,
                                         DirectionSet = DirectionSet::fibonacci);
 

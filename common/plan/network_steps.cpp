@@ -54,13 +54,11 @@ bool too_narrow(std::span<const GaussianDensity> gaussians, double cell, bool gr
   return !grid && narrow > 0.5 * all;
 }
 
-std::int64_t nodes_of(const glm::ivec3& cells) {
-  return std::int64_t{cells.x + 1} * (cells.y + 1) * (cells.z + 1);
-}
+std::int64_t nodes_of(const glm::ivec3& cells) { return std::int64_t{cells.x + 1} * (cells.y + 1) * (cells.z + 1); }
 
-// Where nodes of the source function stand: what is left out beyond is as at the box's sides, and loses a hundredth of a beam at
-// most, which makes cells finer than all of the medium would. Where the medium is narrower than they are, they are as small as as
-// many nodes as a cube's allow.
+// Where nodes of the source function stand. What is left out beyond is as at the box's sides and loses a hundredth of a beam at
+// most, so that cells are finer than in all of the medium's box. Where most of the medium is narrower than a cell they are
+// smaller still, as long as there are no more nodes than in a cube.
 MediumBox source_box(const Scene& scene, std::span<const GaussianDensity> gaussians, int resolution) {
   MediumBox box = medium_box(scene, resolution, 0.01);
   if (!too_narrow(gaussians, box.cell, scene.medium.grid.has_value())) return box;
