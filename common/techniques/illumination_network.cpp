@@ -108,7 +108,8 @@ Technique illumination_network() {
                    "rounds of conjugate gradients, far fewer, where the phase function is isotropic; off, rounds are orders of "
                    "scattering everywhere"),
        integer_knob("resolution", "32", 2, 256,
-                    "cells of the source function along the longest edge of what matters of the medium"),
+                    "cells of the source function along the longest edge of what matters of the medium; more of them where it is "
+                    "narrower"),
        integer_knob("steps", "32", 1, 4096, "steps along the view ray in each stretch of medium"),
        choice_knob("image", {"source", "splats"},
                    "what is seen: the particles' source function along the view ray, light scattered once exactly, or the "
