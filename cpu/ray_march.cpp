@@ -143,7 +143,9 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     foot = load(of_light + foot_at), h = load(of_light + h_at);
     const Real before = from - foot, after = to - foot;
     const Real ra2 = fma(before, before, h * h), rb2 = fma(after, after, h * h);
-    const Mask wide = going && (from < to) && may_have_parts(to - from, min(ra2, rb2));
+    // A step whose middle has nothing is passed by, unless another lane needs it: it must scatter nothing there, too.
+    const Mask lit_there = going && (from < to) && (here.extinction > 0.0);
+    const Mask wide = lit_there && may_have_parts(to - from, min(ra2, rb2));
     if (any_lane(wide)) {
       const Real over_ra = 1.0 / sqrt(ra2), over_rb = 1.0 / sqrt(rb2);
       s = before * over_ra, c = h * over_ra;

@@ -27,13 +27,13 @@ bool holds_in_a_grid(const Medium& medium) {
 
 glm::vec3 grid_albedo(const Medium& medium) { return medium.grid ? medium.grid->albedo : medium.gaussians.front().albedo; }
 
-// What is looked up along rays needs more cells than depths, which are smoother: three in the radius of the smallest Gaussian
-// that matters, within reason.
+// What is looked up along rays needs more cells than depths, which are smoother: twice as many along an edge where the smallest
+// Gaussian that matters has less than three in its radius. Nothing between, for cells must not follow each change of extinction.
 MediumBox fine_box(const Scene& scene, const MediumBox& box) {
-  constexpr double cells_a_radius = 3, most_times = 2;
+  constexpr double cells_a_radius = 3;
   const int cells = std::max({box.cells.x, box.cells.y, box.cells.z});
   const double wanted = cells_for_radius(scene, gaussians_of(scene, box.corner), cells_a_radius);
-  return wanted <= cells ? box : medium_box(scene, static_cast<int>(std::min(wanted, most_times * cells)));
+  return wanted <= cells ? box : medium_box(scene, 2 * cells);
 }
 
 }  // namespace

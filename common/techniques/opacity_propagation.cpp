@@ -62,7 +62,7 @@ Technique opacity_propagation() {
        choice_knob(
            "density", {"auto", "exact", "volume"},
            "extinction along the rays: each Gaussian and the grid as it is, or all from one volume of that resolution; auto: "
-           "as it is with up to 4 Gaussians, else a volume of up to twice that resolution, where Gaussians are small",
+           "as it is with up to 4 Gaussians, else a volume, of twice that resolution where Gaussians are small",
            {}, {"exact"}),
        choice_knob("storage", {"float", "half"}, "what volumes are kept in: 32 bits a value, or 16")});
   t.refuses = refuses_noise;

@@ -167,7 +167,11 @@ TEST(Invariance, HalvesOfAGaussian) {
   hold(
       "halved", "invariance_halves", 15,
       [](const Scene& s, const Asked& a) {
-        return settled(a) && !s.medium.gaussians.empty() && s.medium.gaussians.size() < 10 &&
+        // Halves reach less far, so that cells about them lie elsewhere: of two along an edge that is 1.7 % of the picture.
+        const bool few_cells = std::any_of(a.settings.begin(), a.settings.end(), [](const auto& set) {
+          return set == std::pair<std::string, std::string>("resolution", "2");
+        });
+        return settled(a) && !few_cells && !s.medium.gaussians.empty() && s.medium.gaussians.size() < 10 &&
                s.medium.gaussians[0].extinction > 0;
       },
       [](Scene& s, Draw&) {
