@@ -52,7 +52,8 @@ std::array<float, SurfaceTransfer::record_floats> all_hidden(const glm::vec3& no
   std::array<float, SurfaceTransfer::record_floats> record{};
   for (int l = 0; l < order; ++l) {
     const double lambert = f64::sh_lobe_factor(l, 1), half = 2 * std::numbers::pi * f64::sh_lobe_factor(l, 0);
-    for (auto k = static_cast<std::size_t>(l * l); k < static_cast<std::size_t>((l + 1) * (l + 1)); ++k)
+    const auto band = static_cast<std::size_t>(l);
+    for (std::size_t k = band * band; k < (band + 1) * (band + 1); ++k)
       record[k] = static_cast<float>(lambert * v[k]), record[bands + k] = static_cast<float>(half * v[k]);
   }
   return record;
@@ -143,7 +144,8 @@ std::vector<float> hidden_environment_table(const Scene& scene, const SurfaceTra
       table.push_back(static_cast<float>(std::max(sum, 0.0)));
     }
     const bool lobe_wanted = brdf >= 0 || scene.surfaces[s].material.specular != glm::vec3(0);
-    table.push_back(lobe_wanted ? static_cast<float>(lobes.size() / static_cast<std::size_t>(hidden_lobe_floats)) : -1.0F);
+    const std::size_t lobes_before = lobes.size() / static_cast<std::size_t>(hidden_lobe_floats);
+    table.push_back(lobe_wanted ? static_cast<float>(lobes_before) : -1.0F);
     table.push_back(static_cast<float>(brdf));
     if (!lobe_wanted) continue;
     product.times(record + bands, hidden);

@@ -138,8 +138,8 @@ std::uint64_t along_curve(const glm::ivec3& place) {
   std::uint64_t number = 0;
   for (unsigned bit = 0; bit < 14; ++bit) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto on_axis = static_cast<std::uint64_t>(place[axis] + lattice_side);
-      number |= (on_axis >> bit & 1U) << (3 * bit + static_cast<unsigned>(axis));
+      const int on_axis = place[axis] + lattice_side;
+      number |= (static_cast<std::uint64_t>(on_axis) >> bit & 1U) << (3 * bit + static_cast<unsigned>(axis));
     }
   }
   return number;

@@ -134,7 +134,7 @@ std::vector<std::int32_t> network_lines(const std::vector<float>& particles, int
     int columns = window;
     for (int k = 0; k < 3; ++k) {
       const double wide = occupied[0].length(columns), high = occupied[1].length(std::max(slots / columns, 1));
-      columns = std::clamp(static_cast<int>(window * std::sqrt(wide / high) + 0.5), 1, slots);
+      columns = std::clamp(static_cast<int>(std::floor(window * std::sqrt(wide / high) + 0.5)), 1, slots);
     }
     line[line_pixels] = columns, line[line_pixels + 1] = std::max(slots / columns, 1);
     std::int32_t* edges = lines.data() + shape.edges(l);
