@@ -37,16 +37,14 @@ HWY_INLINE WideLink pass(const float* shares, const Wide& before, const Wide& af
   return link;
 }
 
-// Along the lists. take(k, what) for particle k of each list but those that the longest does not have.
-template <class Take>
-HWY_INLINE void along(const ListBlock& block, const std::int32_t* ends, const float* shares, const float* source,
-                      const float* sky, float* sent, Take&& take) {
+// Along the lists; sends(k) is what end k sends. take(k, what) for particle k of each list but those that the longest does not
+// have.
+template <class Sends, class Take>
+HWY_INLINE void along(const ListBlock& block, const float* shares, const float* sky, Sends&& sends, Take&& take) {
   const Wide last = each_list(block.last);
-  Wide before = wide_at(source, ends), beam = wide_same(sky), waiting = wide_zero();
-  if (sent) wide_store(before, sent);
+  Wide before = sends(0), beam = wide_same(sky), waiting = wide_zero();
   for (int k = 0; k < block.links; ++k) {
-    const Wide after = wide_at(source, ends + 4 * (k + 1));
-    if (sent) wide_store(after, sent + 16 * (k + 1));
+    const Wide after = sends(k + 1);
     const WideLink link = pass(shares + 12 * k, before, after, last, k, beam);
     if (k == 0) {
       waiting = link.got;
@@ -58,7 +56,7 @@ HWY_INLINE void along(const ListBlock& block, const std::int32_t* ends, const fl
   }
 }
 
-// Against them; sends(k) is what end k sends.
+// Against them.
 template <class Sends, class Take>
 HWY_INLINE void against(const ListBlock& block, const float* shares, const float* sky, Sends&& sends, Take&& take) {
   const Wide last = each_list(block.last);
@@ -84,7 +82,12 @@ static void sweep_both(const LineLists& lists, const float* source, const float*
     const std::int32_t* ends = lists.ends.data() + block.ends;
     const float* shares = lists.shares.data() + block.shares;
     const Wide area = each_list(block.area);
-    along(block, ends, shares, source, sky, sent, [&](int k, const Wide& what) HWY_ATTR { wide_store(what, took + 16 * k); });
+    const auto send = [&](int k) HWY_ATTR {
+      const Wide what = wide_at(source, ends + 4 * k);
+      wide_store(what, sent + 16 * k);
+      return what;
+    };
+    along(block, shares, sky, send, [&](int k, const Wide& what) HWY_ATTR { wide_store(what, took + 16 * k); });
     against(
         block, shares, sky + 4, [&](int k) HWY_ATTR { return wide_load(sent + 16 * k); },
         [&](int k, const Wide& what)
@@ -98,11 +101,11 @@ static void sweep_way(const LineLists& lists, bool backward, const float* source
     const float* shares = lists.shares.data() + block.shares;
     const Wide area = each_list(block.area);
     const auto take = [&](int k, const Wide& what) HWY_ATTR { wide_add(what, area, ends + 4 * (k + 1), taken); };
+    const auto send = [&](int k) HWY_ATTR { return wide_at(source, ends + 4 * k); };
     if (backward) {
-      against(
-          block, shares, sky, [&](int k) HWY_ATTR { return wide_at(source, ends + 4 * k); }, take);
+      against(block, shares, sky, send, take);
     } else {
-      along(block, ends, shares, source, sky, nullptr, take);
+      along(block, shares, sky, send, take);
     }
   }
 }
