@@ -141,6 +141,18 @@ void fog() {
   aside.camera.look_at = aside.camera.position + (aside.camera.position - aside.camera.look_at) * glm::dvec3(1, 0, 1);
   row(Rule::tiles_without_planes, "planes out of view: the camera turned round", side(aside, "shadow-planes"),
       side(scene, "shadow-planes"));
+  Scene deep = scene;
+  deep.medium.extinction = 4;
+  for (LightSource& light : deep.lights)
+    light.type = LightType::point, light.position = deep.camera.position + glm::dvec3(0, 0, -20);
+  Scene reached = deep;
+  deep.lights[1].position.z -= 80, deep.lights[2].position.z -= 80;
+  row(Rule::lamps_out_of_reach, "fog of 4 /m, two of three lamps 100 m away, else 20 m", side(deep, "shadow-planes"),
+      side(reached, "shadow-planes"));
+  Scene hidden = scene, seen = scene;
+  hidden.medium.extinction = 60, seen.medium.extinction = 40;
+  row(Rule::behind_fog, "surfaces 2 m behind fog of 60 /m, else 40 /m", side(hidden, "shadow-planes", {{"shadows", "off"}}),
+      side(seen, "shadow-planes", {{"shadows", "off"}}));
   row(Rule::no_indirect, "albedo 0 and a black surface's share of it, else 1e-30",
       side(black, "shadow-planes", {{"shadows", "off"}}), side(faint, "shadow-planes", {{"shadows", "off"}}));
 }
@@ -169,6 +181,15 @@ void gaussians() {
   for (const char* technique : {"gaussian-airlight", "marching"})
     row(Rule::empty_gaussians, fmt::format("half of 40 Gaussians without extinction, {}", technique).c_str(),
         side(half, technique), side(scene, technique));
+  Scene once = scene, twice = scene;
+  for (Gaussian g : scene.medium.gaussians) {
+    once.medium.gaussians.push_back(g);
+    g.radius *= 1 + 1e-12;
+    twice.medium.gaussians.push_back(g);
+  }
+  for (const char* technique : {"gaussian-airlight", "marching"})
+    row(Rule::coincident_gaussians, fmt::format("40 Gaussians twice over, else a hair apart, {}", technique).c_str(),
+        side(once, technique), side(twice, technique));
   Scene behind = scene;
   for (Gaussian& g : behind.medium.gaussians) g.center += 3.0 * (scene.camera.position - scene.camera.look_at);
   row(Rule::out_of_view, "40 Gaussians behind the camera, else before it", side(behind, "gaussian-airlight"),
@@ -179,6 +200,12 @@ void gaussians() {
   none.medium.gaussians.clear();
   none.medium.extinction = noisy.medium.extinction = 0.05;
   row(Rule::no_noise, "noise and no Gaussians, else 40", side(none, "gaussian-airlight"), side(noisy, "gaussian-airlight"));
+  Scene unlit = scene, faint = scene;
+  unlit.lights.clear();
+  faint.lights.resize(1);
+  faint.lights[0].power = glm::dvec3(1e-30);
+  row(Rule::no_nodes, "40 Gaussians and no light, else one of 1e-30", side(unlit, "gaussian-airlight"),
+      side(faint, "gaussian-airlight"));
   const Scene few = in_gaussians(3);
   const auto moving = [&](const Scene& s, const char* technique, const char* knob, const char* value) {
     Side made = side(s, technique, {{knob, value}});

@@ -33,6 +33,7 @@ struct GaussiansOnRay {
   const GaussianPanels& panels;
   std::span<const GaussianTerms> terms;
   int erf;
+  Real far;          // gaussian_erf() of all places far out
   bool with_depths;  // local() tells depths
   bool one_albedo, emits;
   float* scratch;
@@ -40,6 +41,7 @@ struct GaussiansOnRay {
   HWY_INLINE GaussiansOnRay(const GaussianAirlight& algorithm, const TileView& tile_view, const GaussianPanels& square,
                             std::span<const GaussianTerms> of_gaussians, bool depths, float* floats);
   HWY_INLINE void begin(const Real3& d) const;
+  HWY_INLINE Real erf_of(Real x) const;
   HWY_INLINE Real depth_of(std::uint32_t met, Real t) const;
   HWY_INLINE Local local(const GaussianPanels::Panel& p, Real t) const;
   template <int n>
@@ -56,6 +58,7 @@ HWY_INLINE GaussiansOnRay::GaussiansOnRay(const GaussianAirlight& algorithm, con
       panels(square),
       terms(of_gaussians),
       erf(static_cast<int>(algorithm.erf)),
+      far(gaussian_erf(erf, erf_end())),
       with_depths(depths),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0)),
@@ -72,23 +75,30 @@ HWY_INLINE void GaussiansOnRay::begin(const Real3& d) const {
   for (const std::uint32_t k : panels.met()) {
     const GaussianDensity& g = a.gaussians[k];
     const float inverse = terms[k].inverse;
-    Real foot, h;
+    Real foot, h2;  // no root of it: a root takes as long as all else of a Gaussian
     const Real3 way = a.noise.amplitude > 0 ? bent_toward(a.noise, d, g) : d;
-    perpendicular(way.x, way.y, way.z, g.center.x, g.center.y, g.center.z, 0.0, foot, h);
+    perpendicular_squared(way.x, way.y, way.z, g.center.x, g.center.y, g.center.z, foot, h2);
     store(foot, floats + foot_at);
-    store(select(h < g.reach, gaussian_lateral(inverse, h) * g.extinction, 0.0), floats + strength_at);
-    if (with_depths) store(gaussian_erf(erf, foot * -inverse), floats + start_at);
+    store(select(h2 < g.reach * g.reach, gaussian_falloff(inverse, h2) * g.extinction, 0.0), floats + strength_at);
+    if (with_depths) store(erf_of(foot * -inverse), floats + start_at);
     floats += floats_a_gaussian;
   }
+}
+
+// gaussian_erf(), of which most places of most rays need no more than what it is held at: Gaussians lie ahead of the camera and
+// before surfaces as a whole.
+HWY_INLINE Real GaussiansOnRay::erf_of(Real x) const {
+  return any_lane(abs(x) < erf_end()) ? gaussian_erf(erf, x) : select(x > 0.0, far, -far);
 }
 
 // Optical depth of a Gaussian up to t.
 HWY_INLINE Real GaussiansOnRay::depth_of(std::uint32_t met, Real t) const {
   const float* floats = scratch + static_cast<std::ptrdiff_t>(met) * floats_a_gaussian;
-  const Real foot = load(floats + foot_at);
+  const Real foot = load(floats + foot_at), strength = load(floats + strength_at);
+  if (!any_lane(strength > 0.0)) return 0.0;
   const GaussianTerms& g = terms[panels.met()[met]];
-  const Real start = with_depths ? load(floats + start_at) : gaussian_erf(erf, foot * -g.inverse);
-  return gaussian_between(load(floats + strength_at) * g.length, start, gaussian_erf(erf, (t - foot) * g.inverse));
+  const Real start = with_depths ? load(floats + start_at) : erf_of(foot * -g.inverse);
+  return gaussian_between(strength * g.length, start, erf_of((t - foot) * g.inverse));
 }
 
 // What is at a place.

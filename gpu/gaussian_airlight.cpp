@@ -173,8 +173,7 @@ struct Knobs {
 
 void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, {}, {}, 1, LightDepth::analytic, a.erf);
-  const int depths_at = bind_depths(r, a.tables, {a.depths, a.depth_volumes}).depths;
-  if (depths_at >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
+  DepthTables depths(r, a.tables, a.depths, a.depth_volumes, defines);
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
@@ -189,13 +188,12 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
   program.set("noise_amplitude", a.noise.amplitude);
   program.set("noise_inverse_scale", 1 / a.noise.scale);
   program.set("noise_offset", a.noise.offset);
-  program.set("depth_volumes_at", depths_at);
   r.read(0, a.distance);
   r.read_write(0, a.airlight);
   r.read_write(1, a.per_light);
   r.write(2, a.transmittance);
   r.write(3, a.optical_depth);
-  if (a.tables && depths_at < 0) r.storage(tables_binding, a.tables);
+  if (a.tables && a.depths.empty()) r.storage(tables_binding, a.tables);
   r.view(a.view);
   PanelLists lists(a, r.rows(), shadowed ? LoopBudget::most / 2 : LoopBudget::most);
   lists.bind(r);
@@ -226,13 +224,21 @@ void run(const GaussianAirlight& a, StepRunner& r, const Progress& progress) {
       dispatch();
     }
   };
+  const auto lights = static_cast<int>(a.lights.size());
   if (!shadowed) {
-    each_part(true, [&] { r.each_pixel(program, a.airlight.extent, progress); });
+    int first = 0;
+    do {
+      const int end = depths.hold(program, first, a.lights.size());
+      program.set("pass_first_light", first);
+      program.set("pass_end_light", end);
+      each_part(end == lights, [&] { r.each_pixel(program, a.airlight.extent, progress); });
+      first = end;
+    } while (first < lights);
     return;
   }
-  const auto lights = static_cast<int>(a.lights.size());
   each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
     PanelLists::bind_again(r);
+    depths.hold(program, run.light, a.lights.size());
     const int step = LoopBudget::lit_parts(lists.rounds_of_a_piece(), run.most_lit);
     program.set("most_lit", step);
     for (int first = 0; first == 0 || first < run.most_lit; first += step) {

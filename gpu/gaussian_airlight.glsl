@@ -34,7 +34,7 @@ layout(std430, binding = 2) readonly buffer ShadeBlock { ivec4 shades[]; };
 layout(std430, binding = 4) readonly buffer IndexBlock { int indices[]; };
 
 // Between dispatches the airlight image holds what is summed, and the optical depth of the Gaussians that are behind. With lit parts the rays are
-// taken once for each light, and for as many of its parts as fit.
+// taken once for each light, and for as many of its parts as fit; without, once for the lights whose volumes fit.
 uniform int part;
 uniform int last_part;
 
@@ -44,9 +44,11 @@ int end_light() { return light + 1; }
 bool glows() { return light == 0 && first_lit == 0; }  // once is enough
 bool is_first_of_light() { return part == 0 && first_lit == 0; }
 #else
-int first_light() { return 0; }
-int end_light() { return light_count.x; }
-bool glows() { return true; }
+uniform int pass_first_light;
+uniform int pass_end_light;
+int first_light() { return pass_first_light; }
+int end_light() { return pass_end_light; }
+bool glows() { return pass_first_light == 0; }
 bool is_first_of_light() { return part == 0; }
 #endif
 
@@ -196,7 +198,7 @@ void take_samples(ivec2 meets, int first_shade, float from, float to) {
   for (int n = 0; n < samples; ++n) {
     Local here = Local(0.0, scattering[n], emission[n], front);
     for (int k = 0; k < samples; ++k, ++row) here.depth = fma(uneven[k], before[row / 4][row % 4], here.depth);
-    take_node(meets, first_shade, fma(width, rule_of(n).x, middle), width * rule_of(n).y, here, true, true);
+    take_node(meets, first_shade, fma(width, rule_of(n).x, middle), width * rule_of(n).y, here, true, glows());
     whole = fma(uneven[n], rule_of(n).y, whole);
   }
   front = whole;

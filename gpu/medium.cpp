@@ -13,6 +13,11 @@ namespace {
 constexpr std::size_t block_gaussians = 128;  // 6 KiB; GL promises 16
 constexpr GLuint medium_binding = 3, many_gaussians_binding = 5, depths_number = 42;
 
+struct Head {  // of a light's volume, as gpu/medium.glsl reads it
+  glm::vec4 rows[3];
+  std::int32_t kind, at, halves, unused;
+};
+
 struct MediumBlock {
   glm::ivec4 counts;  // Gaussians, steps to a light, where the bricks begin
   glm::vec4 cells[3], size, albedo;
@@ -51,42 +56,56 @@ std::vector<std::string> bind_medium(StepRunner& r, const std::vector<GaussianDe
   return defines;
 }
 
-TablePlaces bind_depths(StepRunner& r, const Buffer& tables, const DepthTables& d) {
-  if (d.depths.empty() && !d.sources) return {};
-  struct Head {  // of a light, as gpu/medium.glsl reads it
-    glm::vec4 rows[3];
-    std::int32_t kind, at, halves, unused;
-  };
+DepthTables::DepthTables(StepRunner& r, const Buffer& tables, const std::vector<Buffer>& depths,
+                         const std::vector<DepthVolume>& volumes, std::vector<std::string>& defines, const Buffer& sources)
+    : r_(r), tables_(tables), sources_(sources), depths_(depths), volumes_(volumes) {
+  if (!depths.empty()) defines.push_back("WITH_DEPTH_VOLUMES");
+  if (sources) defines.push_back("WITH_SOURCES");
+}
+
+void DepthTables::make(int first) {
   std::vector<Head> heads;
-  std::size_t bytes = tables.bytes + sizeof(Head) * d.depths.size();
-  for (std::size_t k = 0; k < d.depths.size(); ++k) {
-    const DepthVolume& v = d.volumes[k];
-    heads.push_back({{v.rows[0], v.rows[1], v.rows[2]},
-                     static_cast<std::int32_t>(v.kind),
-                     static_cast<std::int32_t>(bytes / sizeof(float)),
-                     v.halves ? 1 : 0,
-                     0});
-    bytes += d.depths[k].bytes;
-  }
-  const std::size_t sources_at = bytes;
-  bytes += d.sources.bytes;
-  if (bytes > r.storage_limit()) {
-    throw MachineError("OpenGL: the volumes of lights and sources take " + std::to_string(bytes >> 20U) +
-                       " MiB, more than a storage buffer may have (" + std::to_string(r.storage_limit() >> 20U) +
+  sources_at_ = tables_.bytes;
+  heads_at_ = sources_at_ + sources_.bytes;
+  std::size_t bytes = heads_at_;
+  const auto fits = [&](std::size_t light) { return bytes + sizeof(Head) + depths_[light].bytes <= r_.storage_limit(); };
+  const auto begin = static_cast<std::size_t>(first);
+  std::size_t end = begin;
+  for (; end < depths_.size() && (end == begin || fits(end)); ++end) bytes += sizeof(Head) + depths_[end].bytes;
+  if (bytes > r_.storage_limit()) {
+    throw MachineError("OpenGL: the volumes of a light and of sources take " + std::to_string(bytes >> 20U) +
+                       " MiB, more than a storage buffer may have (" + std::to_string(r_.storage_limit() >> 20U) +
                        "), expected a smaller resolution");
   }
-  r.reserve(depths_number, bytes);
-  if (tables) r.copy(r.buffer_name(tables), depths_number, 0, tables.bytes);
-  r.write_storage(depths_number, tables.bytes, std::as_bytes(std::span(heads)));
-  for (std::size_t k = 0; k < heads.size(); ++k) {
-    r.copy(r.buffer_name(d.depths[k]), depths_number, static_cast<std::size_t>(heads[k].at) * sizeof(float), d.depths[k].bytes);
+  first_ = first, end_ = static_cast<int>(end);
+  r_.reserve(depths_number, bytes);
+  if (tables_) r_.copy(r_.buffer_name(tables_), depths_number, 0, tables_.bytes);
+  if (sources_) r_.copy(r_.buffer_name(sources_), depths_number, sources_at_, sources_.bytes);
+  std::size_t at = heads_at_ + sizeof(Head) * (end - begin);
+  for (std::size_t k = begin; k < end; ++k) {
+    const DepthVolume& v = volumes_[k];
+    heads.push_back({{v.rows[0], v.rows[1], v.rows[2]},
+                     static_cast<std::int32_t>(v.kind),
+                     static_cast<std::int32_t>(at / sizeof(float)),
+                     v.halves ? 1 : 0,
+                     0});
+    r_.copy(r_.buffer_name(depths_[k]), depths_number, at, depths_[k].bytes);
+    at += depths_[k].bytes;
   }
-  if (d.sources) r.copy(r.buffer_name(d.sources), depths_number, sources_at, d.sources.bytes);
-  r.bind(tables_binding, depths_number);
-  TablePlaces places;
-  if (!d.depths.empty()) places.depths = static_cast<int>(tables.bytes / sizeof(float));
-  if (d.sources) places.sources = static_cast<int>(sources_at / sizeof(float));
-  return places;
+  r_.write_storage(depths_number, heads_at_, std::as_bytes(std::span(heads)));
+}
+
+int DepthTables::hold(Program& program, int light, std::size_t lights) {
+  const auto all = static_cast<int>(lights);
+  if (depths_.empty() && !sources_) return all;
+  const bool held = depths_.empty() ? made_ : first_ <= light && light < end_;
+  if (!held) make(light);
+  made_ = true;
+  r_.bind(tables_binding, depths_number);
+  program.set("sources_at", static_cast<int>(sources_at_ / sizeof(float)));
+  program.set("depth_volumes_at",
+              static_cast<int>(heads_at_ / sizeof(float)) - static_cast<int>(sizeof(Head) / sizeof(float)) * first_);
+  return depths_.empty() ? all : end_;
 }
 
 LoopBudget loop_budget(const std::vector<GaussianDensity>& gaussians, const GridDensity& grid, int light_steps,

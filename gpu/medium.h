@@ -16,17 +16,28 @@ namespace airlight {
 std::vector<std::string> bind_medium(StepRunner&, const std::vector<GaussianDensity>&, const GridDensity&, const Buffer& voxels,
                                      int light_steps, LightDepth, Erf = Erf::accurate);
 // With the volumes of LightDepth::volume or a source volume, for which `tables` (what else the shader reads as one, or absent),
-// the depths and the sources are copied into one buffer: its first element stays the tables'. After bind_medium().
-struct DepthTables {
-  const std::vector<Buffer>& depths;
-  const std::vector<DepthVolume>& volumes;
-  Buffer sources = {};
+// the sources and the depths of as many lights as there is room for are copied into one buffer: its first element stays the
+// tables'. After bind_medium(), whose defines it adds to.
+class DepthTables {
+ public:
+  DepthTables(StepRunner&, const Buffer& tables, const std::vector<Buffer>& depths, const std::vector<DepthVolume>&,
+              std::vector<std::string>& defines, const Buffer& sources = {});
+
+  // Makes them those of a light and of some after it, unless that is what they are. Throws MachineError where one does not fit.
+  // Returns the end of the lights that the shader may ask for, of `lights` in all.
+  int hold(Program&, int light, std::size_t lights);
+
+ private:
+  void make(int first);
+
+  StepRunner& r_;
+  Buffer tables_, sources_;
+  const std::vector<Buffer>& depths_;
+  const std::vector<DepthVolume>& volumes_;
+  bool made_ = false;
+  int first_ = 0, end_ = 0;                    // lights
+  std::size_t sources_at_ = 0, heads_at_ = 0;  // [byte]
 };
-struct TablePlaces {
-  int depths = -1;   // where the lights' heads begin, for the uniform depth_volumes_at under WITH_DEPTH_VOLUMES; -1: no volumes
-  int sources = -1;  // where the table of source_in_volume() begins; -1: there is none
-};
-TablePlaces bind_depths(StepRunner&, const Buffer& tables, const DepthTables&);
 
 // Mesa's llvmpipe leaves all loops of a shader once it has gone round 65535 times, without a word: what a dispatch may ask of an
 // invocation.

@@ -8,17 +8,13 @@ namespace airlight {
 
 void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   std::vector<std::string> defines = bind_medium(r, a.gaussians, a.grid, a.voxels, a.light_steps, a.light_depth);
-  const TablePlaces places = bind_depths(r, a.voxels, {a.depths, a.depth_volumes, a.sources});
-  if (places.depths >= 0) defines.push_back("WITH_DEPTH_VOLUMES");
-  if (places.sources >= 0) defines.push_back("WITH_SOURCES");
+  DepthTables depths(r, a.voxels, a.depths, a.depth_volumes, defines, a.sources);
   defines.push_back(r.lights(a.lights));
   if (a.per_light) defines.push_back("WITH_PER_LIGHT");
   if (a.optical_depth) defines.push_back("WITH_OPTICAL_DEPTH");
   const bool shadowed = a.volumes && !a.lights.empty();
   if (shadowed) defines.push_back("WITH_LIT");
   Program& program = r.compute("gpu/ray_march.glsl", defines);
-  program.set("depth_volumes_at", places.depths);
-  program.set("sources_at", places.sources);
   program.set("source_first", a.source_first);
   program.set("source_scale", 1.0F / a.source_spacing);
   r.read(0, a.distance);
@@ -65,13 +61,14 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   if (!shadowed) {
     int first_light = 0;
     do {
-      const int end_light = std::min(first_light + budget.lights, all_lights);
+      const int end_light = std::min(first_light + budget.lights, depths.hold(program, first_light, a.lights.size()));
       march(first_light, end_light, end_light == all_lights, [&] { r.each_pixel(program, a.airlight.extent, progress); });
       first_light = end_light;
     } while (first_light < all_lights);
     return;
   }
   each_lit_run(a.view, a.lights.size(), a.volumes, a.sky_distance, r, progress, [&](const ShadowRun& run) {
+    depths.hold(program, run.light, a.lights.size());
     const int parts = LoopBudget::lit_parts(budget.a_light, run.most_lit);
     program.set("most_lit", parts);
     for (int first = 0; first == 0 || first < run.most_lit; first += parts) {

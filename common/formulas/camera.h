@@ -20,11 +20,18 @@ FORMULA void view_ray(real x, real y, real rx, real ry, real rz, real ux, real u
 }
 
 // A point (relative to the ray's origin) seen from the unit ray d: `foot` is where its perpendicular meets the ray, may be negative;
-// `h` its distance from the ray, at least `least`. By the perpendicular vector: |p|^2 - foot^2 would cancel.
-FORMULA void perpendicular(real dx, real dy, real dz, real px, real py, real pz, real least, OUT(real) foot, OUT(real) h) {
+// `squared` the square of its distance from the ray. By the perpendicular vector: |p|^2 - foot^2 would cancel.
+FORMULA void perpendicular_squared(real dx, real dy, real dz, real px, real py, real pz, OUT(real) foot, OUT(real) squared) {
   foot = fma(dx, px, fma(dy, py, dz * pz));
   real ex = fma(-foot, dx, px);
   real ey = fma(-foot, dy, py);
   real ez = fma(-foot, dz, pz);
-  h = max(sqrt(fma(ex, ex, fma(ey, ey, ez * ez))), least);
+  squared = fma(ex, ex, fma(ey, ey, ez * ez));
+}
+
+// The same with the distance itself, `h`, at least `least`.
+FORMULA void perpendicular(real dx, real dy, real dz, real px, real py, real pz, real least, OUT(real) foot, OUT(real) h) {
+  real squared;
+  perpendicular_squared(dx, dy, dz, px, py, pz, foot, squared);
+  h = max(sqrt(squared), least);
 }

@@ -14,15 +14,13 @@ namespace {
 constexpr double infinite = 1e300;
 // Boxes hold what they should although they are rounded: so much wider, beside a size and beside 1.
 constexpr double wider = 1e-9, rounding = 1e-12;
-// From here on erf_() is held.
-constexpr double far_out = 4;
 
 double squared(double x) { return x * x; }
 
 // Most ends of ways are far from most Gaussians.
 f32::Float error_function(double x) {
-  static const f32::Float far = f32::erf_(far_out);
-  return x >= far_out ? far : x <= -far_out ? -far : f32::erf_(x);
+  static const f32::Float end = f32::erf_end(), far = f32::erf_(end);
+  return f32::Float(x) >= end ? far : f32::Float(x) <= -end ? -far : f32::erf_(x);
 }
 
 // A way of a length [m] that begins at a place, or does not end.

@@ -33,16 +33,17 @@ Knob table_nodes_knob() {
 
 Knob shadows_knob() { return choice_knob("shadows", {"on", "off"}, "shadows of the casters, in the medium and on surfaces"); }
 
-FramePlan::FramePlan(const Scene& s, const FrameRequest& r)
-    : scene(s),
+FramePlan::FramePlan(const Scene& given, const FrameRequest& r)
+    : lean_(lean_scene(given)),
+      scene(*lean_.scene),
       request(r),
-      view(view_of(s, r)),
-      lights(lights_of(s, &light_index)),
-      extinction(static_cast<float>(s.medium.extinction)),
-      sky_distance(static_cast<float>(std::min(s.sky_distance, 1e30))),
-      ambient(s.medium.empty() ? glm::dvec3(0) : s.medium.ambient),
-      geometry(geometry_of(s, geometry_id)),
-      brdfs(brdfs_of(s)),
+      view(view_of(scene, r)),
+      lights(lights_of(scene, &light_index)),
+      extinction(static_cast<float>(scene.medium.extinction)),
+      sky_distance(static_cast<float>(std::min(scene.sky_distance, 1e30))),
+      ambient(scene.medium.empty() ? glm::dvec3(0) : scene.medium.ambient),
+      geometry(geometry_of(scene, geometry_id)),
+      brdfs(brdfs_of(scene)),
       next_id_(first_image_id) {
   distance = image("depth", Format::r32f);
   normal = image("normal", Format::rgb32f);
@@ -79,6 +80,12 @@ void FramePlan::add_skips_of_the_scene() {
   if (std::any_of(scene.lights.begin(), scene.lights.end(), far_away))
     plan.skips.push_back({Rule::lamps_out_of_reach, count(scene.lights, far_away) + " lamps out of reach",
                           "the fog before them lets nothing through"});
+  if (lean_.empty > 0)
+    plan.skips.push_back(
+        {Rule::empty_gaussians, std::to_string(lean_.empty) + " Gaussians of zero extinction", "they are not there"});
+  if (lean_.coincident > 0)
+    plan.skips.push_back({Rule::coincident_gaussians, std::to_string(lean_.coincident) + " Gaussians",
+                          "they lie on others of the same radius, and are added to them"});
   const auto hidden = [&](const Surface& s) { return behind_fog(scene, s); };
   if (std::any_of(scene.surfaces.begin(), scene.surfaces.end(), hidden))
     plan.skips.push_back({Rule::behind_fog, "light on " + count(scene.surfaces, hidden) + " surfaces",

@@ -15,6 +15,7 @@
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/brdf.h"
 #include "common/plan/geometry.h"
+#include "common/plan/lean_scene.h"
 #include "common/plan/plan.h"
 #include "common/scene/scene.h"
 
@@ -42,12 +43,16 @@ Knob shadows_knob();
 class FramePlan {
  public:
   // Begins the plan: its first step is SurfaceVisibility. Scene and request must outlive this object.
-  FramePlan(const Scene&, const FrameRequest&);
+  FramePlan(const Scene& given, const FrameRequest&);
 
   // Handles of a technique's own images and buffers begin here.
   static constexpr std::uint32_t first_own_id = 64;
 
-  const Scene& scene;
+ private:
+  LeanScene lean_;  // before `scene`, which it holds
+
+ public:
+  const Scene& scene;  // as given, but for Gaussians that change nothing: what a technique plans for
   const FrameRequest& request;
   View view;
   std::vector<std::size_t> light_index;  // position in the scene of each light below

@@ -286,7 +286,14 @@ struct GaussianPanels::Build {
     return std::clamp(static_cast<int>(n) - most_spared, std::min(2, a.samples), a.samples);
   }
 
+  // Something along the rays is lit, or glows; else depths are all that is asked for.
+  bool shines() const {
+    return !a.lights.empty() || a.emission != glm::vec3(0) ||
+           std::any_of(out.met_.begin(), out.met_.end(), [&](auto i) { return a.gaussians[i].emission != glm::vec3(0); });
+  }
+
   void run() {
+    if (!shines()) return;
     most_spared = spared();
     const double extinction = static_cast<double>(a.extinction);
     // Not sky_distance: surfaces may be farther away than that.

@@ -16,7 +16,7 @@ namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square; quarters of it and theirs where small Gaussians crowd it
 
-// The panels of one square, in order along the rays.
+// The panels of one square, in order along the rays; none where nothing is lit and nothing glows.
 class GaussianPanels {
  public:
   struct Range {  // of indices()

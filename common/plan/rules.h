@@ -26,7 +26,9 @@ enum class Rule {
   environment_indirect,
   no_depth_lattice,
   empty_gaussians,
+  coincident_gaussians,
   out_of_view,
+  no_nodes,
   no_noise,
   no_light_volumes,
   no_injection,
@@ -39,7 +41,7 @@ enum class Rule {
 };
 
 // Each rule with its name; in the order of the enumeration.
-constexpr std::array<std::pair<Rule, std::string_view>, 27> rule_names{{
+constexpr std::array<std::pair<Rule, std::string_view>, 29> rule_names{{
     {Rule::unchanged, "unchanged"},                        // a step whose inputs are those of a frame before
     {Rule::dark_lights, "dark-lights"},                    // lights without power
     {Rule::lamps_out_of_reach, "lamps-out-of-reach"},      // lamps whose light fog swallows before the camera
@@ -57,7 +59,9 @@ constexpr std::array<std::pair<Rule, std::string_view>, 27> rule_names{{
     {Rule::environment_indirect, "environment-indirect"},  // what nothing scatters of it onto surfaces
     {Rule::no_depth_lattice, "no-depth-lattice"},          // mean depths on lattices, where those of pixels are faster
     {Rule::empty_gaussians, "empty-gaussians"},            // Gaussians without extinction
+    {Rule::coincident_gaussians, "coincident-gaussians"},  // Gaussians that lie on others of the same radius
     {Rule::out_of_view, "out-of-view"},                    // Gaussians that no ray meets
+    {Rule::no_nodes, "no-nodes"},                          // nodes along view rays on which nothing shines
     {Rule::no_noise, "no-noise"},                          // noise without Gaussians
     {Rule::no_light_volumes, "no-light-volumes"},          // volumes of depths toward lights, where closed forms are faster
     {Rule::no_injection, "no-injection"},                  // a grid of the extinction, where closed forms are faster

@@ -86,7 +86,7 @@ Estimate estimate_gaussian_airlight(const Scene& scene, Extent extent, const Kno
   if (scene.medium.extinction > 0) error += 5e-5 * coarseness * coarseness * coarseness;
   const double met = std::pow(gaussians, 0.75) * std::log(1 / lost) / std::log(1 / least_lost_depth);
   const double pixels = static_cast<double>(extent.width) * extent.height;
-  const double of_a_ray = volumes ? 1.3 * n * met + 150 * lights : n * met * (3 + 4 * lights);
+  const double of_a_ray = lights == 0 ? met : volumes ? 1.3 * n * met + 150 * lights : n * met * (3 + 4 * lights);
   double nanoseconds = surface_nanoseconds(scene, extent, knobs.choice("shadows") != "off") + pixels * (25 * lights + of_a_ray);
   if (volumes) nanoseconds += 5e6 * lights * std::pow(cells / 3, 3);
   return {error, 1e-9 * nanoseconds / threads};

@@ -29,9 +29,10 @@ enum : std::uint32_t {
   depths_id = samples_id + sampled_airlight_ids
 };
 
-Plan plan(const Scene& scene, const FrameRequest& request) {
+Plan plan(const Scene& given, const FrameRequest& request) {
+  FramePlan frame(given, request);
+  const Scene& scene = frame.scene;
   const Medium& medium = scene.medium;
-  FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene, scene.camera.position, request.knobs.number("lost_depth"));
 
   // Held where no Gaussian is, so that it makes nothing stale.
@@ -81,8 +82,9 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
                                 toward_lights.depths.empty() ? "they may shade what is seen, and do nothing else"
                                                              : "they are in the volumes toward the lights, and nowhere else"});
   }
-  if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
+  const auto glows = [](const GaussianDensity& g) { return g.emission != glm::vec3(0); };
+  if (!met.empty() && frame.lights.empty() && medium.emission == glm::dvec3(0) && std::none_of(met.begin(), met.end(), glows))
+    frame.plan.skips.push_back({Rule::no_nodes, "nodes along the view rays", "nothing on them is lit or glows"});
   if (!tables) frame.plan.skips.push_back({Rule::no_tables, "airlight tables", lamps ? "no homogeneous fog" : "no point light"});
   return frame.finish();
 }

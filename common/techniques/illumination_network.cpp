@@ -39,9 +39,10 @@ enum : std::uint32_t {
 
 bool splatted(const KnobValues& knobs) { return knobs.choice("image") == "splats"; }
 
-Plan plan(const Scene& scene, const FrameRequest& request) {
+Plan plan(const Scene& given, const FrameRequest& request) {
+  FramePlan frame(given, request);
+  const Scene& scene = frame.scene;
   const Medium& medium = scene.medium;
-  FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
   Buffer voxels;
   GridDensity grid;
@@ -78,8 +79,6 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   frame.shade_through(way, volumes, surfaces_id);
 
   // What this scene does not need, and what is not in the network.
-  if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
   if (!any) frame.plan.skips.push_back({Rule::no_network, "visibility_network", "nothing for particles to stand for"});
   if (frame.has_surfaces())
     frame.plan.skips.push_back({Rule::unhindered_network, "surfaces in the network",

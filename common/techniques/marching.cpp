@@ -11,10 +11,11 @@ namespace airlight {
 
 namespace {
 
-Plan plan(const Scene& scene, const FrameRequest& request) {
+Plan plan(const Scene& given, const FrameRequest& request) {
   enum : std::uint32_t { voxels_id = FramePlan::first_own_id, volumes_id, surfaces_id, samples_id = surfaces_id + 2 };
+  FramePlan frame(given, request);
+  const Scene& scene = frame.scene;
   const Medium& medium = scene.medium;
-  FramePlan frame(scene, request);
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene);
   const bool uneven = !gaussians.empty() || medium.grid;
   // Knobs that this scene does not need are held, so that they make nothing stale.
@@ -46,8 +47,6 @@ Plan plan(const Scene& scene, const FrameRequest& request) {
   frame.shade_through(way, volumes, surfaces_id);
 
   // What this scene does not need.
-  if (gaussians.size() < medium.gaussians.size())
-    frame.plan.skips.push_back({Rule::empty_gaussians, "Gaussians of zero extinction", "they are not there"});
   if (!uneven)
     frame.plan.skips.push_back(
         {Rule::homogeneous, "marching toward the lights", "the medium is homogeneous: light_steps and shadow do nothing"});

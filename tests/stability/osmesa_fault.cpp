@@ -35,6 +35,7 @@ void get_integer(GLenum what, GLint* value) {
 void get_integer64(GLenum what, GLint64* value) {
   reinterpret_cast<PFNGLGETINTEGER64VPROC>(resolve("glGetInteger64v"))(what, value);
   if (fault("storage") && what == GL_MAX_SHADER_STORAGE_BLOCK_SIZE) *value = 64;
+  if (fault("small") && what == GL_MAX_SHADER_STORAGE_BLOCK_SIZE) *value = 1 << 24;
 }
 
 GLenum get_error() {

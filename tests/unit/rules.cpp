@@ -57,6 +57,18 @@ TEST_P(RuleOf, LightsWay) {
   leaves_image(Rule::no_reflectances, lean, full, ended);
 }
 
+TEST_P(RuleOf, NodesOfGaussians) {
+  Work lean = small_work("gaussian-airlight");
+  lean.scene.medium.ambient = {0.1, 0.2, 0.3};
+  lean.set("lost_depth", "1e-5");  // what Gaussians about lamps have anyway
+  Work full = lean;
+  lean.scene.lights.clear();
+  for (LightSource& light : full.scene.lights) light.power = glm::dvec3(almost_nothing);
+  leaves_image(Rule::no_nodes, lean, full, none);
+  lean.scene.medium.gaussians[0].emission = {0.1, 0.1, 0.1};
+  EXPECT_FALSE(holds(lean, Rule::no_nodes));
+}
+
 // A lamp that is near enough to be computed, and has nothing left at the camera, beside one that is left out.
 TEST_P(RuleOf, LampsOutOfReach) {
   for (const char* technique : {"shadow-planes", "gaussian-airlight", "opacity-propagation", "marching"}) {
@@ -109,13 +121,25 @@ TEST_P(RuleOf, Environment) {
 TEST_P(RuleOf, Gaussians) {
   for (const char* technique : {"gaussian-airlight", "opacity-propagation", "illumination-network", "marching"}) {
     Work full = small_work(technique), lean = full;
-    lean.scene.medium.gaussians.push_back(small_blob({0, 0, 0}));
-    lean.scene.medium.gaussians.back().extinction = 0;
-    if (std::string(technique) != "opacity-propagation") {
-      leaves_image(Rule::empty_gaussians, lean, full, 0);
-    } else {
-      same_image(Rule::empty_gaussians, lean, full, 0);
-    }
+    Gaussian empty = small_blob({0, 0, 0});
+    empty.extinction = 0, empty.albedo = {0.1, 0.2, 0.3};
+    lean.scene.medium.gaussians.push_back(empty);
+    lean.scene.medium.gaussians.insert(lean.scene.medium.gaussians.begin(), empty);
+    leaves_image(Rule::empty_gaussians, lean, full, 0);
+  }
+}
+
+// Beside the Gaussian that two of them are.
+TEST_P(RuleOf, CoincidentGaussians) {
+  for (const char* technique : {"gaussian-airlight", "opacity-propagation", "illumination-network", "marching"}) {
+    Work full = small_work(technique), lean = full;
+    std::vector<Gaussian>& two = lean.scene.medium.gaussians;
+    two.front().extinction = 0.75, two.front().albedo = {0.5, 0.25, 1};
+    two.push_back(two.front());
+    two.back().extinction = 0.25, two.back().albedo = {1, 0.75, 0}, two.back().emission = {0.25, 0.5, 1};
+    Gaussian& one = full.scene.medium.gaussians.front();
+    one.extinction = 1, one.albedo = {0.625, 0.375, 0.75}, one.emission = {0.25, 0.5, 1};
+    leaves_image(Rule::coincident_gaussians, lean, full, 0);
   }
 }
 
