@@ -24,7 +24,7 @@ HWY_INLINE Real depth_in_lattices(const MeanDepth& a, table depths, Real index, 
     const DepthLattice& l = a.lattices[static_cast<std::size_t>(surface)];
     const float scale = 1 / l.spacing;
     const Mask mine = (index >= surface) && (index <= surface);
-    const Real found = value_among_nodes(depths + l.first, 0, static_cast<float>(l.nodes.x), static_cast<float>(l.nodes.y),
+    const Real found = value_among_nodes(depths + l.first, 0.0, static_cast<float>(l.nodes.x), static_cast<float>(l.nodes.y),
                                          static_cast<float>(l.nodes.z), (place.x - l.corner.x) * scale,
                                          (place.y - l.corner.y) * scale, (place.z - l.corner.z) * scale);
     depth = select(mine, found, depth);

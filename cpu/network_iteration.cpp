@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t batch = 64;  // particles
 
 // The optical depth of each particle's share of its links, times the list's area, one way: added.
-void add_weights(const Links& links, float* weights) {
+void add_weights(const Links& links, const float* masses, float* weights) {
   links.each_list([&](std::size_t at, std::size_t n) {
-    const float area = links.area(at, n);
+    const float area = links.area(at, n, masses);
     for (std::size_t k = 0; k < n; ++k) {
       const float before = links.depth[at + k] * (k == 0 ? 1.0F : 0.5F);
       const float after = links.depth[at + k + 1] * (k + 1 == n ? 1.0F : 0.5F);
@@ -57,10 +57,11 @@ struct Iteration {
         sky(4 * 2 * line_count, 0.0F) {
     if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
     std::fill(residuals.begin(), residuals.end(), 0.0F);
-    each_line([&](std::size_t l, std::size_t) { lists[l] = LineLists(links_of(l), n); });
+    each_line([&](std::size_t l, std::size_t) { lists[l] = LineLists(links_of(l), masses(), n); });
   }
 
   Links links_of(std::size_t l) const { return {a.shape(), links, l}; }
+  const float* masses() const { return particles + particle_mass * n; }
 
   // body(line, worker)
   template <class Body>
@@ -106,7 +107,7 @@ class EvenSweeps {
   std::vector<float> shares() const {
     std::vector<float> weight(line_groups * it_.n, 0.0F), shares(it_.n);
     each_group([&](std::size_t group, std::size_t begin, std::size_t end, int) {
-      for (std::size_t l = begin; l < end; ++l) add_weights(it_.links_of(l), weight.data() + group * it_.n);
+      for (std::size_t l = begin; l < end; ++l) add_weights(it_.links_of(l), it_.masses(), weight.data() + group * it_.n);
     });
     for (std::size_t v = 0; v < it_.n; ++v) {
       float weights = 0;
@@ -201,7 +202,7 @@ void anisotropic(Iteration& it) {
     phase_row(it.a.phase, it.lines, static_cast<int>(lines), static_cast<int>(l), even.data() + lines * l, odd.data() + lines * l,
               it.simd);
     for (std::size_t d = 2 * l; d < 2 * l + 2; ++d) std::copy_n(it.first + 4 * n * d, 4 * n, first.data() + row * d);
-    add_weights(it.links_of(l), weight.data() + n * l);
+    add_weights(it.links_of(l), it.masses(), weight.data() + n * l);
   });
   for (std::size_t l = 0; l < lines; ++l) {
     for (std::size_t v = 0; v < n; ++v) all_weights[v] += 2 * weight[n * l + v];

@@ -41,11 +41,12 @@ struct Links {
   std::size_t particle_at(std::size_t record) const { return static_cast<std::size_t>(particle[record]); }
 
   // How much of the cross-section a list of n particles stands for: as much as makes its optical depth their mass, in the same
-  // unit for all bundles.
-  float area(std::size_t at, std::size_t n) const {
-    float sum = 0;
+  // unit for all bundles. `masses`: the particles' plane of them.
+  float area(std::size_t at, std::size_t n, const float* masses) const {
+    float sum = 0, mass = 0;
     for (std::size_t k = at; k <= at + n; ++k) sum += depth[k];
-    return static_cast<float>(n) / std::max(sum, 1e-30F);
+    for (std::size_t k = at; k < at + n; ++k) mass += masses[particle_at(k)];
+    return mass / std::max(sum, 1e-30F);
   }
 
   // body(first record, number of particles), of each list that has any.

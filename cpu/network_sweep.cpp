@@ -119,7 +119,7 @@ namespace airlight {
 HWY_EXPORT(sweep_both);
 HWY_EXPORT(sweep_way);
 
-LineLists::LineLists(const Links& links, std::size_t particles) {
+LineLists::LineLists(const Links& links, const float* masses, std::size_t particles) {
   struct List {
     std::size_t first, count;
   };
@@ -138,7 +138,7 @@ LineLists::LineLists(const Links& links, std::size_t particles) {
     for (std::size_t i = 0; i < lists_abreast && begin + i < lists.size(); ++i) {
       const auto [at, n] = lists[begin + i];
       block.last[i] = static_cast<float>(n);
-      block.area[i] = links.area(at, n);
+      block.area[i] = links.area(at, n, masses);
       for (std::size_t k = 0; k < n + 2; ++k) {
         const std::size_t particle = std::clamp<std::size_t>(k, 1, n) - 1;
         ends[block.ends + lists_abreast * k + i] = static_cast<std::int32_t>(links.particle_at(at + particle));

@@ -31,7 +31,7 @@ struct LineLists {
   std::size_t most = 0;            // links
 
   LineLists() = default;
-  LineLists(const Links&, std::size_t particles);
+  LineLists(const Links&, const float* masses, std::size_t particles);
   std::size_t scratch_floats() const { return 2 * 4 * lists_abreast * (most + 1); }
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "common/formulas/float.h"
@@ -129,6 +130,33 @@ void add_beams(const Links& links, const std::int32_t* line, const std::int32_t*
 // their second differences; not below a half.
 float sharpened(float value, float second_difference) { return std::max(value - second_difference / 12, 0.5F * value); }
 
+// Nodes as the table has them, a brick after another.
+struct BrickNodes {
+  const SourceFunction& a;
+  const float* numbers;  // of all bricks, as the table has them
+  std::array<std::size_t, 3> size;
+
+  std::size_t at(std::size_t brick, const std::array<std::size_t, 3>& number) const {
+    return number[0] + size[0] * (number[1] + size[1] * (number[2] + size[2] * brick));
+  }
+  // The one beside a node, in the next brick if need be. Itself where there is none.
+  std::size_t beside(std::size_t brick, std::array<std::size_t, 3> number, std::size_t axis, bool after) const {
+    const std::size_t here = at(brick, number), last = size[axis] - 1;
+    if (number[axis] != (after ? last : 0)) {
+      number[axis] += after ? 1 : ~std::size_t{0};
+      return at(brick, number);
+    }
+    std::array<std::int32_t, 3> next = a.brick(brick);
+    next[axis] += after ? 1 : -1;
+    const auto x = static_cast<std::int32_t>(a.bricks.x), y = static_cast<std::int32_t>(a.bricks.y);
+    if (next[axis] < 0 || next[axis] >= static_cast<std::int32_t>(a.bricks[static_cast<int>(axis)])) return here;
+    const float found = numbers[next[0] + x * (next[1] + y * next[2])];
+    if (found < 0) return here;
+    number[axis] = after ? 1 : last - 1;
+    return at(static_cast<std::size_t>(found), number);
+  }
+};
+
 // Unit direction of a line.
 glm::vec3 direction_of(const std::int32_t* line) {
   const glm::vec3 w(line[line_direction], line[line_direction + 1], line[line_direction + 2]);
@@ -145,7 +173,9 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
              nz = static_cast<std::size_t>(a.nodes.z);
   const std::int32_t* lines = view.integers(a.lines);
   const float *particles = view.floats(a.particles), *sent = view.floats(a.particle_sources);
-  std::vector<float> sums(4 * nx * ny * nz, 0.0F);  // rgb and weights
+  const std::vector<float> head = a.head();
+  const BrickNodes all{a, head.data() + 8, {nx, ny, nz}};
+  std::vector<float> sums(4 * a.all_nodes(), 0.0F);  // rgb and weights
   std::vector<float> sky(4 * 2 * shape.lines, 0.0F);
   if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());
   std::vector<Beams> beams(chunk);
@@ -157,13 +187,17 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
       beams[static_cast<std::size_t>(n)].make(Links(shape, view.floats(a.links), l), line, particles, sent + of_a_way * 2 * l,
                                               sent + of_a_way * (2 * l + 1), sky.data() + 8 * l, shape);
     });
-    workers.each(static_cast<int>(ny * nz), [&](int row, int) {
-      const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny;
+    workers.each(static_cast<int>(a.filled.size() * ny * nz), [&](int row, int) {
+      const auto j = static_cast<std::size_t>(row) % ny, k = static_cast<std::size_t>(row) / ny % nz;
+      const std::size_t number_of_brick = static_cast<std::size_t>(row) / ny / nz;
+      const std::array<std::int32_t, 3> brick = a.brick(number_of_brick);
       std::vector<Node> nodes(nx);
       for (std::size_t i = 0; i < nx; ++i) {
         const std::size_t number[3] = {i, j, k};
-        for (int axis = 0; axis < 3; ++axis) {
-          nodes[i].place[axis] = static_cast<std::int32_t>(a.first[axis]) + a.stride * static_cast<std::int32_t>(number[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::int32_t cells = static_cast<std::int32_t>(all.size[axis]) - 1;
+          nodes[i].place[axis] = static_cast<std::int32_t>(a.first[static_cast<int>(axis)]) +
+                                 a.stride * (brick[axis] * cells + static_cast<std::int32_t>(number[axis]));
         }
         if (isotropic) continue;
         const std::int32_t(&place)[3] = nodes[i].place;
@@ -186,7 +220,7 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
             forward = f32::phase_value(kind, a.phase.g, mu).v;
             backward = f32::phase_value(kind, a.phase.g, -mu).v;
           }
-          float* out = sums.data() + 4 * (i + nx * (j + ny * k));
+          float* out = sums.data() + 4 * all.at(number_of_brick, {i, j, k});
           float sum[3] = {out[0], out[1], out[2]};
           add_beams(links, line, lines + shape.edges(first + n), beams[n], sky.data() + 8 * (first + n), nodes[i], forward,
                     backward, cursor, sum);
@@ -197,21 +231,23 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
     });
   }
   float* out = view.made(a.sources);
-  for (int axis = 0; axis < 3; ++axis) out[axis] = a.nodes[axis];
-  out[3] = 0;
-  const std::size_t all = nx * ny * nz, size[3] = {nx, ny, nz}, step[3] = {1, nx, nx * ny};
-  for (std::size_t n = 0; n < all; ++n) {
-    const std::size_t number[3] = {n % nx, n / nx % ny, n / nx / ny};
+  std::copy(head.begin(), head.end(), out);
+  const std::size_t of_brick = nx * ny * nz;
+  for (std::size_t n = 0; n < a.all_nodes(); ++n) {
+    const std::size_t brick = n / of_brick, within = n % of_brick;
+    const std::array<std::size_t, 3> number{within % nx, within / nx % ny, within / nx / ny};
+    std::size_t before[3], after[3];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      before[axis] = all.beside(brick, number, axis, false), after[axis] = all.beside(brick, number, axis, true);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto mean = [&](std::size_t node) { return sums[4 * node + c] / sums[4 * node + 3]; };
       const float here = mean(n);
       float bent = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (number[axis] == 0 || number[axis] + 1 == size[axis]) continue;
-        bent += mean(n - step[axis]) - 2 * here + mean(n + step[axis]);
+        if (before[axis] != n && after[axis] != n) bent += mean(before[axis]) - 2 * here + mean(after[axis]);
       }
       const float value = sharpened(here, bent);
-      out[4 + all * c + n] = value;
+      out[head.size() + of_brick * (3 * brick + c) + within] = value;
       out[3] = std::max(out[3], value);
     }
   }

@@ -24,7 +24,7 @@ void main() {
     ivec4 nodes_first = floatBitsToInt(lattices[2 * int(index) + 1]);
     vec3 nodes = vec3(nodes_first.xyz);
     vec3 c = (place - corner_scale.xyz) * corner_scale.w;
-    depth = value_among_nodes(nodes_first.w, 0, nodes.x, nodes.y, nodes.z, c.x, c.y, c.z);
+    depth = value_among_nodes(nodes_first.w, 0.0, nodes.x, nodes.y, nodes.z, c.x, c.y, c.z);
 #else
     depth = gaussian_mean_depth(gaussian_count, place);
 #endif

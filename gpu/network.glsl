@@ -23,6 +23,7 @@ const int lattice_length = 8192;
 const int line_fields = 12;
 const int particle_albedo = 3;
 const int particle_glow = 6;
+const int particle_mass = 10;
 const int link_planes = 5;
 
 int line_field(int line, int k) { return line_values[line * line_fields + k]; }

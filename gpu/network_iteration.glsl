@@ -76,8 +76,10 @@ void main() {
   int first = int(links[begin_at(line, c)]);
   int last = int(links[begin_at(line, c + 1)]);
   float all = 0.0;
+  float mass = 0.0;
   for (int k = first; k <= last; ++k) all += links[record_at(line, 1) + k + c];
-  float area = float(last - first) / max(all, 1e-30);
+  for (int k = first; k < last; ++k) mass += particle_plane(particle_mass, particle_of(line, k + c));
+  float area = mass / max(all, 1e-30);
   words[area_at(line, c)] = floatBitsToUint(area);
   for (int k = first; k < last; ++k) {
     int record = record_at(line, 1) + k + c;

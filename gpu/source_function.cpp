@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "gpu/network.h"
@@ -6,8 +8,8 @@
 namespace airlight {
 
 void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
-  constexpr GLuint beams_number = 50, sums_number = 51, most_number = 52;  // buffers of this step
-  constexpr std::size_t chunk = 32;                                        // lines whose beams are held at once
+  constexpr GLuint beams_number = 50, sums_number = 51, most_number = 52, head_number = 53;  // buffers of this step
+  constexpr std::size_t chunk = 32;                                                          // lines whose beams are held at once
   const NetworkShape shape = a.shape();
   bind_network(r, a,
                {.slots = static_cast<std::int32_t>(shape.slots),
@@ -15,12 +17,19 @@ void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
                 .phase_g = static_cast<float>(a.phase.g),
                 .unit = a.unit,
                 .camera = glm::vec4(a.camera, 0)});
-  const std::size_t nodes = (a.floats() - 4) / 3;
+  const std::size_t nodes = a.all_nodes();
   r.storage(0, a.links);
   r.storage(3, a.particle_sources);
   r.reserve(beams_number, 8 * sizeof(float) * std::min(chunk, shape.lines) * shape.records());
   r.bind(4, beams_number);
-  r.reserve(sums_number, 4 * sizeof(float) * nodes);
+  // Behind the sums where bricks are.
+  std::vector<glm::vec4> bricks;
+  for (std::size_t k = 0; k < a.filled.size(); ++k) {
+    const std::array<std::int32_t, 3> at = a.brick(k);
+    bricks.emplace_back(at[0], at[1], at[2], 0);
+  }
+  r.reserve(sums_number, sizeof(glm::vec4) * (nodes + bricks.size()));
+  r.write_storage(sums_number, sizeof(glm::vec4) * nodes, std::as_bytes(std::span(bricks)));
   r.bind(5, sums_number);
   r.storage(6, a.sources);
   const float most = 0;
@@ -36,6 +45,9 @@ void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
     Program& program = r.compute("gpu/source_function.glsl", {define});
     program.set("first_node", a.first);
     program.set("nodes", a.nodes);
+    program.set("bricks", a.bricks);
+    program.set("all_nodes", static_cast<int>(nodes));
+    program.set("head_size", static_cast<int>(a.head_floats()));
     program.set("stride", a.stride);
     program.set("first_line", static_cast<int>(first));
     program.set("end_line", static_cast<int>(std::min(first + chunk, shape.lines)));
@@ -46,8 +58,11 @@ void run(const SourceFunction& a, StepRunner& r, const Progress& progress) {
     each("NODES", nodes, first);
   }
   r.bind(7, most_number);
+  const std::vector<float> head = a.head();
+  r.fill(head_number, std::as_bytes(std::span(head)));
+  r.bind(4, head_number);
   each("MEANS", nodes, 0);
-  each("HEAD", 1, 0);
+  each("HEAD", head.size(), 0);
 }
 
 }  // namespace airlight

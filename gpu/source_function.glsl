@@ -1,27 +1,32 @@
 // Four programs. BEAMS: the radiance on each link of some lines, an invocation a list. NODES: what of it arrives at a node, added.
-// MEANS: the mean over all lines; HEAD: the table's beginning, one invocation.
+// MEANS: the mean over all lines; HEAD: the table's beginning, an invocation a float.
 #include "gpu/dialect.glsl"
 #include "gpu/screen.glsl"
 #include "gpu/network.glsl"
 
 layout(std430, binding = 0) readonly buffer LinkBuffer { float links[]; };
 layout(std430, binding = 3) readonly buffer SourceBuffer { vec4 particle_sources[]; };
-layout(std430, binding = 4) buffer BeamBuffer { vec4 beams[]; };  // of each record: along the line, against it
-layout(std430, binding = 5) buffer SumBuffer { vec4 sums[]; };    // rgb and weights
+layout(std430, binding = 5) buffer SumBuffer { vec4 sums[]; };  // rgb and weights of nodes, then where bricks are
 layout(std430, binding = 6) buffer TableBuffer { float table_of_sources[]; };
 #if defined(BEAMS) || defined(NODES)
+layout(std430, binding = 4) buffer BeamBuffer { vec4 beams[]; };        // of each record: along the line, against it
 layout(std430, binding = 7) readonly buffer SkyBuffer { vec4 sky[]; };  // of each direction
 #else
+layout(std430, binding = 4) readonly buffer HeadBuffer { float head[]; };
 layout(std430, binding = 7) buffer MostBuffer { uint most; };
 #endif
 
 uniform vec3 first_node;
-uniform vec3 nodes;
+uniform vec3 nodes;   // of a brick
+uniform vec3 bricks;
+uniform int all_nodes;
+uniform int head_size;
 uniform int stride;
 uniform int first_line;  // of this dispatch
 uniform int end_line;
 
 vec3 mean_of(int node) { return sums[node].xyz / sums[node].w; }
+ivec3 brick_of(int brick) { return ivec3(sums[all_nodes + brick].xyz); }
 int dot_of(ivec3 a, ivec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 int particle_of(int line, int record) { return int(links[record_at(line, 0) + record]); }
 int beam_at(int line, int record, int way) { return 2 * ((line - first_line) * (particle_count + slots) + record) + way; }
@@ -87,10 +92,34 @@ vec3 arriving(int line, ivec3 place, float forward, float backward) {
 }
 #endif
 
+#ifdef MEANS
+int node_at(int brick, ivec3 number) {
+  ivec3 size = ivec3(nodes);
+  return number.x + size.x * (number.y + size.y * (number.z + size.z * brick));
+}
+// The node beside one along an axis, in the next brick if need be. Itself where there is none.
+int beside(int brick, ivec3 number, int axis, int way) {
+  int here = node_at(brick, number);
+  int last = int(nodes[axis]) - 1;
+  if (number[axis] != (way > 0 ? last : 0)) {
+    number[axis] += way;
+    return node_at(brick, number);
+  }
+  ivec3 next = brick_of(brick);
+  next[axis] += way;
+  if (next[axis] < 0 || next[axis] >= int(bricks[axis])) return here;
+  int found = int(head[8 + next.x + int(bricks.x) * (next.y + int(bricks.y) * next.z)]);
+  if (found < 0) return here;
+  number[axis] = way > 0 ? 1 : last - 1;
+  return node_at(found, number);
+}
+#endif
+
 void main() {
   int n = item();
   ivec3 size = ivec3(nodes);
-  int all = size.x * size.y * size.z;
+  int of_brick = size.x * size.y * size.z;
+  ivec3 number = ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y % size.z);
 #ifdef BEAMS
   int line = first_line + n / slots;
   int c = n % slots;
@@ -102,8 +131,8 @@ void main() {
   sweep(line, first + c, count, 1);
 #endif
 #ifdef NODES
-  if (n >= all) return;
-  ivec3 place = ivec3(first_node) + stride * ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
+  if (n >= all_nodes) return;
+  ivec3 place = ivec3(first_node) + stride * (brick_of(n / of_brick) * (size - 1) + number);
   vec3 way = camera.xyz - vec3(place) * unit;
   way *= 1.0 / sqrt(max(dot3(way, way), 1e-30));
   vec4 sum = first_line == 0 ? vec4(0.0) : sums[n];
@@ -120,21 +149,20 @@ void main() {
   sums[n] = sum;
 #endif
 #ifdef MEANS
-  if (n >= all) return;
+  if (n >= all_nodes) return;
+  int brick = n / of_brick;
   vec3 mean = mean_of(n);
   vec3 bent = vec3(0.0);  // second differences
-  ivec3 number = ivec3(n % size.x, n / size.x % size.y, n / size.x / size.y);
-  ivec3 step = ivec3(1, size.x, size.x * size.y);
   for (int axis = 0; axis < 3; ++axis) {
-    if (number[axis] > 0 && number[axis] + 1 < size[axis]) bent += mean_of(n - step[axis]) - 2.0 * mean + mean_of(n + step[axis]);
+    int before = beside(brick, number, axis, -1);
+    int after = beside(brick, number, axis, 1);
+    if (before != n && after != n) bent += mean_of(before) - 2.0 * mean + mean_of(after);
   }
   mean = max(mean - bent / 12.0, 0.5 * mean);
-  for (int c = 0; c < 3; ++c) table_of_sources[4 + all * c + n] = mean[c];
+  for (int c = 0; c < 3; ++c) table_of_sources[head_size + of_brick * (3 * brick + c) + n % of_brick] = mean[c];
   atomicMax(most, floatBitsToUint(max(mean.x, max(mean.y, mean.z))));
 #endif
 #ifdef HEAD
-  if (n > 0) return;
-  for (int axis = 0; axis < 3; ++axis) table_of_sources[axis] = nodes[axis];
-  table_of_sources[3] = uintBitsToFloat(most);
+  if (n < head_size) table_of_sources[n] = n == 3 ? uintBitsToFloat(most) : head[n];
 #endif
 }

@@ -7,7 +7,8 @@ namespace airlight {
 
 // Particles stand on a lattice about the medium's middle, so that which of them a line meets, and in what order, is integer
 // arithmetic on every machine: coordinates are -lattice_side..lattice_side times `unit` of the step. A plane of floats each:
-// three coordinates, albedo, emission over extinction [W/m^2/sr] (rgb), extinction [1/m].
+// three coordinates, albedo, emission over extinction [W/m^2/sr] (rgb), extinction [1/m], mass beside the mean of all.
+// Mass is extinction integrated over the space that a particle stands for.
 constexpr int lattice_side = 8191;
 constexpr int lattice_length = 8192;  // of the vectors of a line
 enum ParticlePlane : int {
@@ -15,7 +16,8 @@ enum ParticlePlane : int {
   particle_albedo = 3,
   particle_glow = 6,
   particle_extinction = 9,
-  particle_planes = 10
+  particle_mass = 10,
+  particle_planes = 11
 };
 
 // A bundle of parallel lines, each of which light takes both ways: int32[12]. Direction, and two vectors across it; how many

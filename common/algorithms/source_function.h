@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "common/algorithms/field.h"
 #include "common/algorithms/network.h"
@@ -9,20 +11,23 @@
 
 namespace airlight {
 
-// What there is to scatter toward the camera: at each node of a box the mean of the radiance that arrives along all lines,
-// weighed by the phase function. That radiance is the one of the node's own line of each bundle, between two particles of its
-// list linear between what it is at them; light straight from the lights is not in it. (The paper splats the particles, which is
-// noise, and means of the particles about a place would be too dark beside a light, where most of them lie deeper in the medium.)
+// What there is to scatter toward the camera: at each node of a box, or of those bricks of one that have any, the mean of the
+// radiance that arrives along all lines, weighed by the phase function. That radiance is the one of the node's own line of each
+// bundle, between two particles of its list linear between what it is at them; light straight from the lights is not in it. (The
+// paper splats the particles, which is noise, and means of the particles about a place would be too dark beside a light, where
+// most of them lie deeper in the medium.)
 struct SourceFunction {
   Buffer particles, lines, links, particle_sources, sky;  // as NetworkIteration's
   Phase phase;
   int particle_count = 1, line_count = 1;
   int window = 1;
-  float unit = 1;             // [m] of the lattice
-  glm::vec3 camera{0, 0, 0};  // [m] from the medium's middle; of an isotropic phase function it does not matter
-  glm::vec3 first{0, 0, 0};   // the node of least coordinates, on the lattice
-  int stride = 1;             // of the lattice, from node to node, > 0
-  glm::vec3 nodes{2, 2, 2};   // an axis, each at least 2
+  float unit = 1;                       // [m] of the lattice
+  glm::vec3 camera{0, 0, 0};            // [m] from the medium's middle; of an isotropic phase function it does not matter
+  glm::vec3 first{0, 0, 0};             // the node of least coordinates, on the lattice
+  int stride = 1;                       // of the lattice, from node to node, > 0
+  glm::vec3 nodes{2, 2, 2};             // an axis of a brick, each at least 2
+  glm::vec3 bricks{1, 1, 1};            // an axis, side by side: nodes between two of them are those of both
+  std::vector<std::int32_t> filled{0};  // numbers, ascending, of the bricks that have nodes, x fastest
 
   Buffer sources;  // [W/m^2/sr] the table of source_in_volume() (common/formulas/network.h), nodes sharpened for its lookups
 
@@ -30,8 +35,24 @@ struct SourceFunction {
     const auto side = static_cast<std::size_t>(window);
     return {static_cast<std::size_t>(particle_count), static_cast<std::size_t>(line_count), side * side};
   }
-  std::size_t floats() const {
-    return 4 + 3 * static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y) * static_cast<std::size_t>(nodes.z);
+  static std::size_t product(const glm::vec3& v) {
+    return static_cast<std::size_t>(v.x) * static_cast<std::size_t>(v.y) * static_cast<std::size_t>(v.z);
+  }
+  std::size_t all_nodes() const { return filled.size() * product(nodes); }
+  std::size_t head_floats() const { return 8 + product(bricks); }
+  std::size_t floats() const { return head_floats() + 3 * all_nodes(); }
+  // How the table begins, but for its largest value.
+  std::vector<float> head() const {
+    std::vector<float> head(head_floats(), -1.0F);
+    for (int axis = 0; axis < 3; ++axis) head[axis] = nodes[axis], head[4 + axis] = bricks[axis];
+    head[3] = 0, head[7] = static_cast<float>(head.size());
+    for (std::size_t k = 0; k < filled.size(); ++k) head[8 + static_cast<std::size_t>(filled[k])] = static_cast<float>(k);
+    return head;
+  }
+  // Where in the row of bricks of each axis the k-th one with nodes is.
+  std::array<std::int32_t, 3> brick(std::size_t k) const {
+    const auto x = static_cast<std::int32_t>(bricks.x), y = static_cast<std::int32_t>(bricks.y);
+    return {filled[k] % x, filled[k] / x % y, filled[k] / x / y};
   }
 
   static constexpr std::string_view name = "source_function";
@@ -52,6 +73,8 @@ struct SourceFunction {
     v(knob("first"), s.first);
     v(knob("stride"), s.stride);
     v(knob("nodes"), s.nodes);
+    v(knob("bricks"), s.bricks);
+    v(knob("filled"), s.filled);
     v(out("sources", "W/m^2/sr"), s.sources);
   }
 };

@@ -22,7 +22,7 @@ FORMULA void grid_lookup_clamped(real coordinate, real n, OUT(real) lower, OUT(r
 }
 
 // Between nodes, so many an axis, x fastest, at a place told in nodes; `layer`: of boxes of nodes one behind the other. The outermost hold outside.
-FORMULA real value_among_nodes(table t, int layer, real nx, real ny, real nz, real x, real y, real z) {
+FORMULA real value_among_nodes(table t, real layer, real nx, real ny, real nz, real x, real y, real z) {
   real i;
   real j;
   real k;
@@ -32,7 +32,7 @@ FORMULA real value_among_nodes(table t, int layer, real nx, real ny, real nz, re
   grid_lookup_clamped(x, nx, i, u);
   grid_lookup_clamped(y, ny, j, v);
   grid_lookup_clamped(z, nz, k, w);
-  return weighted_cell(t, i, j, fma(real(layer), nz, k), nx, ny, u, v, w);
+  return weighted_cell(t, i, j, fma(layer, nz, k), nx, ny, u, v, w);
 }
 
 // A grid of extinctions in a table: the numbers of cells nx, ny, nz, then (nx+2) (ny+2) (nz+2) values, x fastest: the grid in its ring of

@@ -11,8 +11,25 @@ FORMULA void link_shares(real depth, real all, OUT(real) lost, OUT(real) given, 
   kept = self * ratio * ratio;
 }
 
-// A source volume in a table: nodes an axis, the largest value, then a box of values a channel, x fastest. Linear an axis at a time between nodes, of which
-// there are at least 2 an axis; the outermost hold outside.
+// Of so many bricks of cells in a row, the one where a coordinate in cells is; the outermost one outside.
+FORMULA real source_brick(real coordinate, real cells, real bricks) {
+  return max(min(floor(coordinate / cells), bricks - 1.0), 0.0);
+}
+
+// A source volume in a table: nodes an axis of a brick, the largest value, bricks an axis, where values begin; then of each brick, x fastest, its number among
+// those that have nodes, -1 without; then their values, a brick after another, each a box of values a channel, x fastest. Linear an axis at a time between
+// nodes, of which there are at least 2 an axis; bricks side by side have those between them in common, the outermost hold outside all. 0 in a brick without.
 FORMULA real source_in_volume(table t, int channel, real x, real y, real z) {
-  return value_among_nodes(t + 4, channel, element(t, 0), element(t, 1), element(t, 2), x, y, z);
+  int values = integer_element(t, 7);
+  real nx = element(t, 0);
+  real ny = element(t, 1);
+  real nz = element(t, 2);
+  if (values < 10) return value_among_nodes(t + values, real(channel), nx, ny, nz, x, y, z);  // one brick
+  real i = source_brick(x, nx - 1.0, element(t, 4));
+  real j = source_brick(y, ny - 1.0, element(t, 5));
+  real k = source_brick(z, nz - 1.0, element(t, 6));
+  real number = fetch(t, fma(fma(k, element(t, 5), j), element(t, 4), i) + 8.0);
+  real layer = fma(max(number, 0.0), 3.0, real(channel));
+  real value = value_among_nodes(t + values, layer, nx, ny, nz, fma(-i, nx - 1.0, x), fma(-j, ny - 1.0, y), fma(-k, nz - 1.0, z));
+  return select(number < 0.0, real(0.0), value);
 }

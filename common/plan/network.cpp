@@ -51,11 +51,7 @@ class ParticleSampler {
  public:
   ParticleSampler(const Scene& scene, const NetworkFrame& frame) : frame_(frame) {
     gaussians_ = gaussians_of(scene, frame.middle);
-    constexpr double pi_to_three_halves = 5.568327996831707;
-    for (const GaussianDensity& g : gaussians_) {
-      const double r = static_cast<double>(g.radius);
-      add_component(static_cast<double>(g.extinction) * r * r * r * pi_to_three_halves);
-    }
+    for (const GaussianDensity& g : gaussians_) add_component(mass_of(g));
     if (scene.medium.grid) {
       const GridMedium& grid = *scene.medium.grid;
       to_world_ = grid.transform;
@@ -70,7 +66,7 @@ class ParticleSampler {
   double total() const { return masses_.empty() ? 0 : masses_.back(); }
 
   // The k-th of n, on the lattice.
-  glm::ivec3 place(std::size_t k, std::size_t n) {
+  glm::ivec3 sampled_place(std::size_t k, std::size_t n) {
     const double target = (static_cast<double>(k) + 0.5) / static_cast<double>(n) * total();
     while (next_ + 1 < masses_.size() && masses_[next_] < target) ++next_;
     const glm::dvec3 u = low_discrepancy(k);
@@ -86,13 +82,12 @@ class ParticleSampler {
       const glm::dvec3 at(cell % size_.x, cell / size_.x % size_.y, cell / size_.x / size_.y);
       p = glm::dvec3(to_world_ * glm::dvec4(at + u, 1)) - frame_.middle;
     }
-    glm::ivec3 lattice;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double on_axis = std::floor(p[axis] / frame_.unit + 0.5);
-      lattice[axis] = static_cast<int>(std::clamp<double>(on_axis, -lattice_side, lattice_side));
-    }
-    return lattice;
+    return on_lattice(p);
   }
+
+  // Of the k-th Gaussian.
+  glm::ivec3 gaussian_place(std::size_t k) const { return on_lattice(glm::dvec3(gaussians_[k].center)); }
+  double gaussian_mass(std::size_t k) const { return mass_of(gaussians_[k]); }
 
   Mixture mixture(const glm::ivec3& lattice) const {
     Mixture m;
@@ -121,6 +116,19 @@ class ParticleSampler {
   }
 
  private:
+  static double mass_of(const GaussianDensity& g) {
+    constexpr double pi_to_three_halves = 5.568327996831707;
+    const auto r = static_cast<double>(g.radius);
+    return static_cast<double>(g.extinction) * r * r * r * pi_to_three_halves;
+  }
+  glm::ivec3 on_lattice(const glm::dvec3& p) const {
+    glm::ivec3 lattice;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double on_axis = std::floor(p[axis] / frame_.unit + 0.5);
+      lattice[axis] = static_cast<int>(std::clamp<double>(on_axis, -lattice_side, lattice_side));
+    }
+    return lattice;
+  }
   void add_component(double mass) { masses_.push_back(total() + mass); }
 
   const NetworkFrame& frame_;
@@ -155,19 +163,33 @@ NetworkFrame network_frame(const MediumBox& box) {
 
 double network_mass(const Scene& scene, const NetworkFrame& frame) { return ParticleSampler(scene, frame).total(); }
 
-std::vector<float> network_particles(const Scene& scene, const NetworkFrame& frame, int count) {
+int gaussian_particles(const Scene& scene) {
+  return static_cast<int>(std::count_if(scene.medium.gaussians.begin(), scene.medium.gaussians.end(),
+                                        [](const Gaussian& g) { return g.extinction > 0; }));
+}
+
+std::vector<float> network_particles(const Scene& scene, const NetworkFrame& frame, int count, ParticleSet set) {
   const auto n = static_cast<std::size_t>(count);
   ParticleSampler sampler(scene, frame);
-  std::vector<glm::ivec3> places(n);
-  for (std::size_t k = 0; k < n; ++k) places[k] = sampler.place(k, n);
-  std::sort(places.begin(), places.end(),
-            [](const glm::ivec3& a, const glm::ivec3& b) { return along_curve(a) < along_curve(b); });
+  const bool sampled = set == ParticleSet::sampled;
+  struct Particle {
+    glm::ivec3 place;
+    std::size_t number;
+  };
+  std::vector<Particle> all(n);
+  for (std::size_t k = 0; k < n; ++k) all[k] = {sampled ? sampler.sampled_place(k, n) : sampler.gaussian_place(k), k};
+  std::sort(all.begin(), all.end(), [](const Particle& a, const Particle& b) {
+    const std::uint64_t x = along_curve(a.place), y = along_curve(b.place);
+    return x != y ? x < y : a.number < b.number;
+  });
   std::vector<float> planes(particle_planes * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const glm::ivec3& place = places[k];
+    const auto& [place, number] = all[k];
     const Mixture m = sampler.mixture(place);
     const double scale = m.extinction > 0 ? 1 / m.extinction : 0;
     planes[particle_extinction * n + k] = static_cast<float>(m.extinction);
+    planes[particle_mass * n + k] =
+        sampled || !(sampler.total() > 0) ? 1 : static_cast<float>(sampler.gaussian_mass(number) / sampler.total() * count);
     for (int c = 0; c < 3; ++c) {
       const auto channel = static_cast<std::size_t>(c);
       planes[(particle_place + channel) * n + k] = static_cast<float>(place[c]);
@@ -179,7 +201,7 @@ std::vector<float> network_particles(const Scene& scene, const NetworkFrame& fra
 }
 
 std::vector<Plan::Upload> network_uploads(const Scene& scene, const MediumBox& box, int particles, int lines, int window,
-                                          std::uint32_t first_id, DirectionSet set) {
+                                          std::uint32_t first_id, DirectionSet set, ParticleSet particle_set) {
   const NetworkFrame frame = network_frame(box);
   Hash key;
   key.add(std::string_view("network"));
@@ -192,13 +214,14 @@ std::vector<Plan::Upload> network_uploads(const Scene& scene, const MediumBox& b
     key.add(grid);
   }
   key.add(particles);
+  key.add(static_cast<int>(particle_set));
   // Lines are made from particles, which are made once for both.
   struct Made {
     std::vector<float> particles;
   };
   const auto made = std::make_shared<Made>();
-  const auto sampled = [made, scene, frame, particles]() -> const std::vector<float>& {
-    if (made->particles.empty()) made->particles = network_particles(scene, frame, particles);
+  const auto sampled = [made, scene, frame, particles, particle_set]() -> const std::vector<float>& {
+    if (made->particles.empty()) made->particles = network_particles(scene, frame, particles, particle_set);
     return made->particles;
   };
   const auto bytes_of = [](const auto& values) {

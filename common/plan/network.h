@@ -23,10 +23,17 @@ NetworkFrame network_frame(const MediumBox&);
 // Extinction of the scene's Gaussians and grid, integrated over space [m^2].
 double network_mass(const Scene&, const NetworkFrame&);
 
-// `count` particles of the scene's Gaussians and grid, as common/algorithms/network.h lays them out: proportional to extinction,
-// by a low-discrepancy sequence (Roberts 2018: powers of the root of x^4 = x + 1), always the same ones. They stand along
-// Morton's curve: of 100000 particles those of one list lie near each other in memory, which makes a round 1.5 times as fast.
-std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count);
+// Where particles stand: sampled, in proportion to extinction, by a low-discrepancy sequence (Roberts 2018: powers of the root of
+// x^4 = x + 1), always the same ones, each as much of the medium's mass; or in the middle of each of the scene's Gaussians, with
+// its mass. Each has the albedo and the emission of all that is there.
+enum class ParticleSet : int { sampled, gaussians };
+// Of how many Gaussians there would be.
+int gaussian_particles(const Scene&);
+
+// `count` particles of the scene's Gaussians and grid, as common/algorithms/network.h lays them out, gaussian_particles() of a
+// set of Gaussians. They stand along Morton's curve: of 100000 particles those of one list lie near each other in memory, which
+// makes a round 1.5 times as fast.
+std::vector<float> network_particles(const Scene&, const NetworkFrame&, int count, ParticleSet = ParticleSet::sampled);
 
 // Directions of `count` bundles of lines, along which light goes both ways: a direction and its opposite are always taken
 // together. Spherical Fibonacci points on half of the sphere, evenly spread with the opposite ones; or at random, as published,
@@ -45,6 +52,7 @@ std::vector<float> network_sky(const Environment&, int line_count, DirectionSet 
 
 // Both as uploads under two handles from `first_id` on.
 std::vector<Plan::Upload> network_uploads(const Scene&, const MediumBox&, int particles, int lines, int window,
-                                          std::uint32_t first_id, DirectionSet = DirectionSet::fibonacci);
+                                          std::uint32_t first_id, DirectionSet = DirectionSet::fibonacci,
+                                          ParticleSet = ParticleSet::sampled);
 
 }  // namespace airlight

@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "common/plan/environment.h"
 #include "common/plan/hash.h"
+#include "common/plan/source_nodes.h"
 #include "common/plan/upload.h"
 #include "common/plan/voxels.h"
 
@@ -36,6 +37,19 @@ void refuse_size(int particles, std::size_t directions, std::size_t floats) {
                      " MiB, expected at most " + std::to_string(most_floats >> 18U));
 }
 
+// Throws InputError where Gaussians are not all of the medium, or are too many to be a particle each.
+int count_of(const Scene& scene, ParticleSet set, int sampled) {
+  if (set == ParticleSet::sampled) return sampled;
+  const auto refuse = [](const std::string& what) {
+    throw InputError("setting particle_set: gaussians " + what + ", or particle_set=sampled");
+  };
+  if (scene.medium.grid) refuse("leave the grid without particles; expected a medium of Gaussians alone");
+  const int count = gaussian_particles(scene);
+  if (count > most_particles)
+    refuse("would be " + std::to_string(count) + " particles; expected at most " + std::to_string(most_particles));
+  return count;
+}
+
 std::string_view reason_of(const NetworkIteration& iteration, const KnobValues& knobs) {
   if (iteration.gradients) return "light from particle to particle, by conjugate gradients: the phase function is isotropic";
   return knobs.choice("acceleration") == "off"
@@ -43,33 +57,13 @@ std::string_view reason_of(const NetworkIteration& iteration, const KnobValues& 
              : "light from particle to particle, an order of scattering a round: the phase function depends on the direction";
 }
 
-// More than half of the medium is in Gaussians narrower than a cell: nodes stand too far apart for it.
-bool too_narrow(std::span<const GaussianDensity> gaussians, double cell, bool grid) {
-  double narrow = 0, all = 0;
-  for (const GaussianDensity& g : gaussians) {
-    const double radius = static_cast<double>(g.radius), mass = static_cast<double>(g.extinction) * radius * radius * radius;
-    all += mass;
-    if (radius < cell) narrow += mass;
+std::string_view reason_of(const SourceNodes& nodes) {
+  if (nodes.too_coarse) {
+    return "what there is to scatter toward the camera; nodes miss most of what is narrower than the cells, and much light with "
+           "it: a larger resolution helps";
   }
-  return !grid && narrow > 0.5 * all;
-}
-
-std::int64_t nodes_of(const glm::ivec3& cells) { return std::int64_t{cells.x + 1} * (cells.y + 1) * (cells.z + 1); }
-
-// Where nodes of the source function stand. What is left out beyond is as at the box's sides and loses a hundredth of a beam at
-// most, so that cells are finer than in all of the medium's box. Where most of the medium is narrower than a cell they are
-// smaller still, as long as there are no more nodes than in a cube.
-MediumBox source_box(const Scene& scene, std::span<const GaussianDensity> gaussians, int resolution) {
-  MediumBox box = medium_box(scene, resolution, 0.01);
-  if (!too_narrow(gaussians, box.cell, scene.medium.grid.has_value())) return box;
-  const std::int64_t most = nodes_of(glm::ivec3(resolution));
-  for (int finer = resolution; too_narrow(gaussians, 2 * box.cell, false);) {
-    finer += (finer + 7) / 8;
-    const MediumBox next = medium_box(scene, finer, 0.01);
-    if (nodes_of(next.cells) > most) break;
-    box = next;
-  }
-  return box;
+  return nodes.filled.size() > 1 ? "what there is to scatter toward the camera, in bricks where any of the medium is"
+                                 : "what there is to scatter toward the camera, everywhere";
 }
 
 }  // namespace
@@ -81,7 +75,8 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   const Scene& scene = frame.scene;
   const KnobValues& knobs = frame.request.knobs;
   const Medium& medium = scene.medium;
-  const int particles = static_cast<int>(knobs.number("particles"));
+  const ParticleSet particle_set = knobs.choice("particle_set") == "gaussians" ? ParticleSet::gaussians : ParticleSet::sampled;
+  const int particles = count_of(scene, particle_set, static_cast<int>(knobs.number("particles")));
   const int lines = (static_cast<int>(knobs.number("directions")) + 1) / 2, window = window_of(particles);
   const int iterations = static_cast<int>(knobs.number("iterations"));
   const DirectionSet set = knobs.choice("direction_set") == "random" ? DirectionSet::random : DirectionSet::fibonacci;
@@ -89,7 +84,8 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   const NetworkFrame lattice = network_frame(box);
   const auto unit = static_cast<float>(lattice.unit);
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic;
-  const std::vector<Plan::Upload> uploads = network_uploads(scene, box, particles, lines, window, particles_id, set);
+  const std::vector<Plan::Upload> uploads =
+      network_uploads(scene, box, particles, lines, window, particles_id, set, particle_set);
   frame.plan.uploads.insert(frame.plan.uploads.end(), uploads.begin(), uploads.end());
   const std::vector<GaussianDensity> gaussians = gaussians_of(scene, lattice.middle);
   GridDensity grid;
@@ -111,7 +107,10 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
   const std::size_t values = 4 * static_cast<std::size_t>(particles) * (isotropic ? 1 : directions);
   refuse_size(particles, directions, network.shape().links() + 2 * values);
   network.links = {{links_id}, bytes(network.shape().links())};
-  frame.plan.steps.push_back({network, "which particles light meets along each line, and what is between them"});
+  frame.plan.steps.push_back(
+      {network, particle_set == ParticleSet::sampled
+                    ? "which particles light meets along each line, and what is between them"
+                    : "which Gaussians, a particle each, light meets along each line, and what is between them"});
 
   // Published and off are the other techniques' step and nothing.
   Buffer sky;
@@ -178,19 +177,13 @@ NetworkPlan add_network(FramePlan& frame, Buffer voxels, bool splatted, std::uin
                         .unit = unit,
                         .sources = {}};
   if (!isotropic) source.camera = scene.camera.position - lattice.middle;
-  const MediumBox inner = source_box(scene, gaussians, static_cast<int>(knobs.number("resolution")));
-  const glm::dvec3 corner = glm::floor((inner.corner - lattice.middle) / lattice.unit);
-  source.first = corner;
-  source.stride = static_cast<int>(std::ceil(inner.cell / lattice.unit));
-  source.nodes = glm::vec3(inner.cells + 1);
-  made.first = lattice.middle + corner * lattice.unit;
-  made.spacing = glm::dvec3(source.stride * lattice.unit);
+  const SourceNodes nodes = source_nodes(scene, lattice, static_cast<int>(knobs.number("resolution")));
+  source.first = nodes.first, source.stride = nodes.stride;
+  source.nodes = nodes.nodes, source.bricks = nodes.bricks, source.filled = nodes.filled;
+  made.first = lattice.middle + glm::dvec3(nodes.first) * lattice.unit;
+  made.spacing = glm::dvec3(nodes.stride * lattice.unit);
   source.sources = {{sources_id}, bytes(source.floats())};
-  frame.plan.steps.push_back(
-      {source, too_narrow(gaussians, inner.cell, static_cast<bool>(medium.grid))
-                   ? "what there is to scatter toward the camera, everywhere; nodes miss most of what is narrower "
-                     "than the cells, and much light with it: a larger resolution helps"
-                   : "what there is to scatter toward the camera, everywhere"});
+  frame.plan.steps.push_back({source, reason_of(nodes)});
   made.sources = source.sources;
   return made;
 }

@@ -20,9 +20,13 @@ struct NetworkPlan {
   glm::dvec3 spacing{1, 1, 1};
 };
 
-// Adds them to the plan of a technique with the knobs `particles directions direction_set iterations tolerance acceleration
-// resolution environment_airlight`; without the source function where particles are `splatted`. `voxels`: the scene's grid, if it
-// has one. Handles: network_ids from `first_id` on. Throws InputError where the steps would hand on more than 2 GiB.
+// Of any set.
+constexpr int most_particles = 100000;
+
+// Adds them to the plan of a technique with the knobs `particles particle_set directions direction_set iterations tolerance
+// acceleration resolution environment_airlight`; without the source function where particles are `splatted`. `voxels`: the
+// scene's grid, if it has one. Handles: network_ids from `first_id` on. Throws InputError where the steps would hand on more than
+// 2 GiB.
 NetworkPlan add_network(FramePlan&, Buffer voxels, bool splatted, std::uint32_t first_id);
 constexpr std::uint32_t network_ids = 8;
 

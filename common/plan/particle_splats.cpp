@@ -98,10 +98,11 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
   for (std::size_t k = 0; k < n; ++k) {
     const Seen& s = seen[k];
     const double extinction = std::max(static_cast<double>(particles[particle_extinction * n + s.particle]), least_extinction);
-    const double volume = extinction > 0 ? share / extinction : 0;
+    const double mass_here = share * static_cast<double>(particles[particle_mass * n + s.particle]);
+    const double volume = extinction > 0 ? mass_here / extinction : 0;
     double support = extinction > 0 ? least_support : most_support;
     if (volume > 0) support = std::clamp(width * cube_root(volume), least_support, std::max(most_support, least_support));
-    const double peak = std::min(3 * share / (pi * support * support), most_peak);
+    const double peak = std::min(3 * mass_here / (pi * support * support), most_peak);
     float* one = splats.data() + splat_fields * k;
     for (int axis = 0; axis < 3; ++axis) one[splat_center + axis] = static_cast<float>(s.center[axis]);
     // One on the camera is taken to be a little before it: it sends into some direction.

@@ -93,7 +93,9 @@ Technique illumination_network() {
   t.name = "illumination-network";
   t.summary = "multiple scattering in Gaussians and grids, among particles (Szirmay-Kalos et al. 2005)";
   t.knobs = with_surface_knobs(
-      {integer_knob("particles", "4096", 1, 100000, "how many stand for the medium"),
+      {integer_knob("particles", "4096", 1, most_particles, "of particle_set=sampled: how many stand for the medium"),
+       choice_knob("particle_set", {"sampled", "gaussians"},
+                   "places sampled in proportion to the extinction, or each Gaussian of a medium without a grid one particle"),
        integer_knob("directions", "256", 1, 1024,
                     "in which light goes from particle to particle, both ways of half as many lines (of an odd one more)"),
        choice_knob(

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "common/plan/geometry.h"
+#include "common/plan/source_nodes.h"
 #include "common/plan/voxels.h"
 #include "tests/parity/inputs.h"
 
@@ -22,6 +23,13 @@ Scene two_gaussians(double albedo) {
     g.albedo = glm::dvec3(albedo);
     scene.medium.gaussians.push_back(g);
   }
+  return scene;
+}
+
+Scene far_gaussians() {
+  Scene scene = two_gaussians(0.9);
+  scene.medium.gaussians[0].radius = scene.medium.gaussians[1].radius = 0.1;
+  scene.medium.gaussians[1].center = {1.5, -1.2, -1.4};
   return scene;
 }
 
@@ -43,11 +51,14 @@ std::vector<LightSource> network_lights() {
   return {lamp, sun};
 }
 
-TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSource>& lights, const NetworkParts& parts) {
+TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSource>& lights, const NetworkParts& asked) {
+  NetworkParts parts = asked;
+  if (parts.particle_set == ParticleSet::gaussians) parts.particles = gaussian_particles(scene);
   const MediumBox box = medium_box(scene, 12);
   const NetworkFrame frame = network_frame(box);
   TestNetwork t;
-  for (const Plan::Upload& upload : network_uploads(scene, box, parts.particles, parts.lines, parts.window, 1, parts.set))
+  for (const Plan::Upload& upload :
+       network_uploads(scene, box, parts.particles, parts.lines, parts.window, 1, parts.set, parts.particle_set))
     c.buffers.emplace_back(upload.buffer, upload.make());
   const auto floats = [](std::uint32_t id, std::size_t n) { return Buffer{{id}, sizeof(float) * n}; };
   VisibilityNetwork& n = t.network;
@@ -94,9 +105,15 @@ TestNetwork test_network(Case& c, const Scene& scene, const std::vector<LightSou
   s.particles = n.particles, s.lines = n.lines, s.links = n.links, s.particle_sources = i.sources, s.phase = parts.phase;
   s.particle_count = n.particle_count, s.line_count = n.line_count, s.window = n.window, s.unit = n.unit;
   s.camera = scene.camera.position - frame.middle;
-  s.first = glm::floor((box.corner - frame.middle) / frame.unit);
-  s.stride = static_cast<int>(std::ceil(box.cell / frame.unit));
-  s.nodes = glm::vec3(box.cells + 1);
+  if (parts.sparse) {
+    const SourceNodes nodes = source_nodes(scene, frame, 16);
+    s.first = nodes.first, s.stride = nodes.stride;
+    s.nodes = nodes.nodes, s.bricks = nodes.bricks, s.filled = nodes.filled;
+  } else {
+    s.first = glm::floor((box.corner - frame.middle) / frame.unit);
+    s.stride = static_cast<int>(std::ceil(box.cell / frame.unit));
+    s.nodes = glm::vec3(box.cells + 1);
+  }
   s.sources = floats(8, s.floats());
   return t;
 }

@@ -20,7 +20,9 @@ struct NetworkParts {
   float tolerance = 1e-6F;
   int iterations = 300;
   DirectionSet set = DirectionSet::fibonacci;
+  ParticleSet particle_set = ParticleSet::sampled;  // of Gaussians, as many as there are
   bool gradients = false;
+  bool sparse = false;  // nodes as a plan has them, not one box
 };
 
 // All four steps for the scene's medium under these lights and its environment; their inputs become buffers 1 to 3 and 9 of the
@@ -30,6 +32,8 @@ TestNetwork test_network(Case&, const Scene&, const std::vector<LightSource>&, c
 Scene two_gaussians(double albedo);
 // An uneven sky, turned, with a pixel that is brighter than all others.
 Environment network_environment();
+// Two small Gaussians far apart in a slanting direction.
+Scene far_gaussians();
 // A point light in the medium of test_gaussian_scene() and a directional one.
 std::vector<LightSource> network_lights();
 

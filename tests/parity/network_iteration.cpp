@@ -34,6 +34,8 @@ const NamedCase cases[] = {
     {"network_iteration/gradients_sky", [](Extent) { return iterate(7, {.extinction = 0, .gradients = true}, true); }},
     {"network_iteration/gradients_few",
      [](Extent) { return iterate(7, {.particles = 333, .lines = 9, .tolerance = 0, .iterations = 3, .gradients = true}); }},
+    {"network_iteration/particle_each_gaussian",
+     [](Extent) { return iterate(60, {.lines = 9, .window = 4, .iterations = 40, .particle_set = ParticleSet::gaussians}); }},
     {"network_iteration/gradients_one_particle",
      [](Extent) { return iterate(2, {.particles = 1, .lines = 1, .window = 1, .gradients = true}); }},
     {"network_iteration/first_order", [](Extent) { return iterate(5, {.iterations = 1}); }},

@@ -15,13 +15,18 @@ struct Parts {
   float sky_distance = 1e30F;
   bool parts = true;  // per light, optical depth
   bool casters = false;
-  bool sources = false;
+  bool sources = false, sparse = false;
 };  // namespace
 
 // A table of source_in_volume().
-Buffer add_sources(Case& c, std::uint32_t id) {
-  std::vector<float> table{4, 3, 5, 2};
-  for (std::uint32_t i = 0; i < 3 * 4 * 3 * 5; ++i) table.push_back(2 * static_cast<float>(uniform(173, i)));
+Buffer add_sources(Case& c, std::uint32_t id, bool sparse) {
+  std::vector<float> table{4, 3, 5, 2, 1, 1, 1, 9, 0};
+  std::uint32_t bricks = 1;
+  if (sparse) {  // 2 x 2 x 3 bricks, of which some have no nodes
+    table = {4, 3, 5, 2, 2, 2, 3, 20, 0, -1, 1, 2, -1, 3, 4, 5, 6, 7, -1, 8};
+    bricks = 9;
+  }
+  for (std::uint32_t i = 0; i < bricks * 3 * 4 * 3 * 5; ++i) table.push_back(2 * static_cast<float>(uniform(173, i)));
   const auto bytes = std::as_bytes(std::span(table));
   const Buffer sources{{id}, bytes.size()};
   c.buffers.emplace_back(sources, std::vector<std::byte>(bytes.begin(), bytes.end()));
@@ -45,7 +50,7 @@ Case march(Extent extent, const Parts& parts) {
                        .voxels = medium.voxels,
                        .volumes = parts.casters ? add_test_volumes(c, 9, lights) : Buffer{},
                        .depths = {},
-                       .sources = parts.sources ? add_sources(c, 10) : Buffer{},
+                       .sources = parts.sources ? add_sources(c, 10, parts.sparse) : Buffer{},
                        .lights = lights,
                        .depth_volumes = {},
                        .gaussians = medium.gaussians,
@@ -88,6 +93,8 @@ const NamedCase cases[] = {
     {"ray_march/casters_in_everything",
      [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .casters = true}); }},
     {"ray_march/sources", [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .sources = true}); }},
+    {"ray_march/sparse_sources",
+     [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .sources = true, .sparse = true}); }},
     {"ray_march/everything",
      [](Extent e) { return march(e, {.gaussians = 4, .grid = true, .steps = 6, .light_depth = marched}); }},
 };

@@ -4,9 +4,8 @@ namespace airlight {
 
 namespace {
 
-Case sources(const NetworkParts& parts, bool sky = false) {
+Case sources(const NetworkParts& parts, bool sky = false, Scene scene = test_gaussian_scene(6)) {
   Case c;
-  Scene scene = test_gaussian_scene(6);
   if (sky) scene.environment = network_environment();
   const TestNetwork t = test_network(c, scene, network_lights(), parts);
   c.steps = {{t.network, ""}, {t.light, ""}, {t.iteration, ""}, {t.source, ""}};
@@ -21,6 +20,7 @@ const NamedCase cases[] = {
      [](Extent) {
        return sources({.lines = 6, .phase = {PhaseKind::cornette_shanks, 0.5}, .iterations = 8});
      }},
+    {"source_function/bricks", [](Extent) { return sources({.iterations = 8, .sparse = true}, false, far_gaussians()); }},
 };
 
 }  // namespace

@@ -59,6 +59,7 @@ Settings settings_of(const std::string& technique, const Scene& scene, Draw& dra
     set("environment_rays", "16");
     if (draw.chance(0.2)) set("environment_airlight", draw.of(std::array{"off", "published"}));
   }
+  if (technique == "illumination-network" && !scene.medium.grid && draw.chance(0.2)) set("particle_set", "gaussians");
   // The last one said wins: only one is, so that what is drawn is what is told.
   Settings once;
   for (const auto& [name, value] : s) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +33,34 @@ inline Scene network_cloud(double depth, double albedo, double g) {
     as_they_are = std::max(as_they_are, optical_depth(scene.medium.gaussians, from, {1, 0, 0}, 100));
   }
   for (Gaussian& one : scene.medium.gaussians) one.extinction *= depth / as_they_are, one.albedo = glm::dvec3(albedo);
+  scene.lights = {point_light({0.2, 2.4, 0.8}, glm::dvec3(4)), directional_light({0.7, -0.6, -0.4}, glm::dvec3(2.5))};
+  return scene;
+}
+
+// Two small clouds so far from each other, the camera before one of them.
+inline Scene small_clouds(const glm::dvec3& apart) {
+  Scene scene;
+  scene.camera = {.position = {0, 0, 0.4}, .look_at = {0, 0, 0}, .vertical_fov = 40};
+  for (const double k : {0.0, 1.0})
+    scene.medium.gaussians.push_back({.center = k * apart, .radius = 0.05, .extinction = 60, .albedo = glm::dvec3(0.9)});
+  scene.lights = {directional_light({0.7, -0.6, -0.4}, glm::dvec3(2.5))};
+  return scene;
+}
+
+// A ball of so many equal Gaussians, each as wide as the next are away, of an optical depth of about 5 through its middle.
+inline Scene particle_cloud(int count) {
+  Scene scene;
+  scene.camera = {.position = {0, 0, 5}, .look_at = {0, 0, 0}, .vertical_fov = 32};
+  const double radius = std::cbrt(4 * M_PI / 3 / count);
+  std::vector<Gaussian>& all = scene.medium.gaussians;
+  for (int k = 0; static_cast<int>(all.size()) < count; ++k) {
+    // Roberts 2018
+    const glm::dvec3 at =
+        2.0 * glm::fract(0.5 + static_cast<double>(k) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)) -
+        1.0;
+    if (glm::length(at) < 1) all.push_back({.center = at, .radius = radius, .albedo = glm::dvec3(0.9)});
+  }
+  for (Gaussian& one : all) one.extinction = 2.5 * 4 * M_PI / 3 / count / std::pow(M_PI, 1.5) / std::pow(radius, 3);
   scene.lights = {point_light({0.2, 2.4, 0.8}, glm::dvec3(4)), directional_light({0.7, -0.6, -0.4}, glm::dvec3(2.5))};
   return scene;
 }
@@ -77,7 +107,7 @@ struct NetworkError {
 
 struct NetworkSize {
   int particles = 0, directions = 0, resolution = 0;  // none: the technique's own
-  std::string set = "fibonacci";
+  std::string set = "fibonacci", particle_set = "sampled";
 };
 
 inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
@@ -87,7 +117,8 @@ inline RenderSettings network_settings(const NetworkSize& size, Extent extent) {
     settings.knobs = {{"particles", std::to_string(size.particles)},
                       {"directions", std::to_string(size.directions)},
                       {"resolution", std::to_string(size.resolution)},
-                      {"direction_set", size.set}};
+                      {"direction_set", size.set},
+                      {"particle_set", size.particle_set}};
   }
   settings.resolution = extent;
   return settings;

@@ -75,10 +75,16 @@ double relative_largest(const std::vector<double>& found, const std::vector<doub
   return worst / largest;
 }
 
-void is_dense_solution(const Scene& scene, bool gradients) {
-  const RanNetwork ran(
-      scene, network_lights(),
-      {.particles = 60, .lines = 6, .window = 4, .extinction = 0, .tolerance = 1e-8F, .iterations = 400, .gradients = gradients});
+void is_dense_solution(const Scene& scene, bool gradients, ParticleSet particle_set = ParticleSet::sampled) {
+  const RanNetwork ran(scene, network_lights(),
+                       {.particles = 60,
+                        .lines = 6,
+                        .window = 4,
+                        .extinction = 0,
+                        .tolerance = 1e-8F,
+                        .iterations = 400,
+                        .particle_set = particle_set,
+                        .gradients = gradients});
   const std::size_t n = ran.shape.particles;
   std::vector<std::vector<double>> taken(n, std::vector<double>(n, 0.0));
   std::vector<double> weight(n, 0.0);
@@ -116,11 +122,15 @@ Scene unlike_gaussians() {
   return scene;
 }
 
-TEST(IlluminationNetwork, IterationIsTheDenseSolution) { is_dense_solution(two_gaussians(0.9), false); }
+TEST(IlluminationNetwork, IterationIsTheDenseSolution) {
+  is_dense_solution(two_gaussians(0.9), false);
+  is_dense_solution(test_gaussian_scene(70), false, ParticleSet::gaussians);
+}
 TEST(IlluminationNetwork, GradientsAreTheDenseSolution) {
   is_dense_solution(two_gaussians(0.9), true);
   is_dense_solution(two_gaussians(1), true);
   is_dense_solution(unlike_gaussians(), true);
+  is_dense_solution(test_gaussian_scene(70), true, ParticleSet::gaussians);
 }
 
 // Each channel is a system of its own: where nothing scatters, first sources are all; one particle scatters to itself alone.
@@ -208,7 +218,7 @@ TEST(IlluminationNetwork, AnisotropicIterationIsTheDenseSolution) {
 
 // At albedo 1, what leaves all lines is what the first sources put into them.
 void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, const Scene& scene = two_gaussians(1),
-               bool gradients = false) {
+               bool gradients = false, ParticleSet particle_set = ParticleSet::sampled) {
   const RanNetwork ran(scene, network_lights(),
                        {.particles = 200,
                         .lines = 10,
@@ -218,6 +228,7 @@ void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, c
                         .tolerance = 0,
                         .iterations = 400,
                         .set = set,
+                        .particle_set = particle_set,
                         .gradients = gradients});
   const std::size_t n = ran.shape.particles, directions = 2 * ran.shape.lines;
   const bool isotropic = phase.kind == PhaseKind::isotropic;
@@ -246,6 +257,12 @@ void out_is_in(const Phase& phase, DirectionSet set = DirectionSet::fibonacci, c
 TEST(IlluminationNetwork, WhatGoesInComesOut) { out_is_in({}); }
 TEST(IlluminationNetwork, WhatGoesInComesOutOfGradients) { out_is_in({}, DirectionSet::fibonacci, two_gaussians(1), true); }
 TEST(IlluminationNetwork, WhatGoesInComesOutForward) { out_is_in({PhaseKind::henyey_greenstein, 0.7}); }
+TEST(IlluminationNetwork, WhatGoesInComesOutOfGaussians) {
+  Scene scene = test_gaussian_scene(80);  // unlike masses
+  for (Gaussian& g : scene.medium.gaussians) g.albedo = glm::dvec3(1);
+  for (const bool gradients : {false, true}) out_is_in({}, DirectionSet::fibonacci, scene, gradients, ParticleSet::gaussians);
+  out_is_in({PhaseKind::henyey_greenstein, 0.7}, DirectionSet::fibonacci, scene, false, ParticleSet::gaussians);
+}
 TEST(IlluminationNetwork, WhatGoesInComesOutAtRandom) { out_is_in({PhaseKind::henyey_greenstein, 0.7}, DirectionSet::random); }
 
 // A Gaussian smaller than the lattice's cells within another: its particles, most of all, stand on each other.

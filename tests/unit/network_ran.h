@@ -48,7 +48,9 @@ class RanNetwork {
   double area(std::size_t line, const std::vector<std::size_t>& list, std::size_t record) const {
     double depth = 0;
     for (std::size_t k = 0; k <= list.size(); ++k) depth += link(line, link_depth, record + k);
-    return static_cast<double>(list.size()) / depth;
+    double mass = 0;
+    for (const std::size_t v : list) mass += particle(particle_mass, v);
+    return mass / depth;
   }
   glm::dvec3 axis(std::size_t line, int field) const {
     const std::int32_t* l = lines.data() + line * line_fields + field;

@@ -32,11 +32,11 @@ void in_a_furnace(const Phase& phase, DirectionSet set = DirectionSet::fibonacci
       sources = std::max(
           sources, std::fabs(static_cast<double>(ran.sources[i]) / scene.environment->radiance[static_cast<int>(i % 4)] - 1));
   }
-  const std::size_t nodes = (ran.everywhere.size() - 4) / 3;
+  const std::size_t nodes = ran.t.source.all_nodes(), head = ran.t.source.head_floats();
   for (std::size_t i = 0; i < 3 * nodes; ++i)
     field = std::max(
         field,
-        std::fabs(static_cast<double>(ran.everywhere[4 + i]) / scene.environment->radiance[static_cast<int>(i / nodes)] - 1));
+        std::fabs(static_cast<double>(ran.everywhere[head + i]) / scene.environment->radiance[static_cast<int>(i / nodes)] - 1));
   std::printf("sources off by %.1e, what arrives by %.1e after %g rounds\n", sources, field,
               static_cast<double>(ran.residuals[0]));
   const bool isotropic = phase.kind == PhaseKind::isotropic;

@@ -65,7 +65,8 @@ TEST(ParticleSplats, ShareTheMass) {
 TEST(ParticleSplats, OfOnePlaceHaveAnOrder) {
   constexpr std::size_t n = 30;
   std::vector<float> particles(particle_planes * n, 0.0F);
-  for (std::size_t k = 0; k < n; ++k) particles[k] = 5, particles[particle_extinction * n + k] = k == 3 ? 0.0F : 2.0F;
+  for (std::size_t k = 0; k < n; ++k)
+    particles[k] = 5, particles[particle_extinction * n + k] = k == 3 ? 0.0F : 2.0F, particles[particle_mass * n + k] = 1;
   const NetworkFrame frame{{1, 2, 3}, 0.01};
   const std::vector<float> splats = particle_splats(particles, frame, 4, 1, {1.05, 2, 3});
   for (std::size_t k = 0; k < n; ++k) {

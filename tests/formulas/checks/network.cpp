@@ -46,37 +46,58 @@ Measured measure_links(const Run& run) {
   return m;
 }
 
-// A function linear along each axis, of which lookups are exact, another in each channel; beyond the nodes it stands still.
-// Beside its largest value.
-Measured measure_source(const Run& run) {
+// A function linear along each axis, of which lookups are exact, another in each channel, in one brick or in some of a box;
+// beyond the nodes it stands still, in bricks without nodes it is 0. Beside its largest value.
+void measure_source(const Run& run, const std::array<int, 3>& bricks, const std::vector<int>& filled, Measured& m) {
   Random random(stream + 2);
   const std::array<int, 3> n{4, 2, 5};
   const auto value = [](int channel, double x, double y, double z) { return channel + 0.25 * x + 0.5 * x * y + 0.125 * y * z; };
+  const double largest = value(2, bricks[0] * 3, bricks[1], bricks[2] * 4);
   std::vector<float> table;
   for (const int size : n) table.push_back(static_cast<float>(size));
-  table.push_back(6);
-  for (int channel = 0; channel < 3; ++channel) {
-    for (int k = 0; k < n[2]; ++k) {
-      for (int j = 0; j < n[1]; ++j) {
-        for (int i = 0; i < n[0]; ++i) table.push_back(static_cast<float>(value(channel, i, j, k)));
+  table.push_back(static_cast<float>(largest));
+  for (const int count : bricks) table.push_back(static_cast<float>(count));
+  std::vector<float> numbers(static_cast<std::size_t>(bricks[0] * bricks[1] * bricks[2]), -1.0F);
+  table.push_back(static_cast<float>(8 + numbers.size()));
+  for (std::size_t k = 0; k < filled.size(); ++k) numbers[static_cast<std::size_t>(filled[k])] = static_cast<float>(k);
+  table.insert(table.end(), numbers.begin(), numbers.end());
+  for (const int brick : filled) {
+    const std::array<int, 3> at{brick % bricks[0], brick / bricks[0] % bricks[1], brick / bricks[0] / bricks[1]};
+    for (int channel = 0; channel < 3; ++channel) {
+      for (int k = 0; k < n[2]; ++k) {
+        for (int j = 0; j < n[1]; ++j) {
+          for (int i = 0; i < n[0]; ++i)
+            table.push_back(static_cast<float>(value(channel, at[0] * 3 + i, at[1] + j, at[2] * 4 + k)));
+        }
       }
     }
   }
-  Measured m;
   for (int channel = 0; channel < 3; ++channel) {
     Columns in;
-    for (int i = 0; i < 3000; ++i) add_call(in, random.number(-1, 5), random.number(-1, 3), random.number(-1, 6));
+    for (int i = 0; i < 3000; ++i)
+      add_call(in, random.number(-1, bricks[0] * 3 + 2), random.number(-1, bricks[1] + 2), random.number(-1, bricks[2] * 4 + 2));
     Calls calls{Formula::source_in_volume, in, {}, table};
     calls.phase.kind = static_cast<PhaseKind>(channel);
     const Columns found = run(calls);
     for (std::size_t i = 0; i < in[0].size(); ++i) {
       std::array<double, 3> q{};
-      for (std::size_t k = 0; k < 3; ++k) q[k] = std::clamp(in[k][i], 0.0, n[k] - 1.0);
-      m.add(std::fabs(found[0][i] - value(channel, q[0], q[1], q[2])) / 6, [&] {
+      int number = 0;
+      for (std::size_t k = 3; k-- > 0;) {
+        q[k] = std::clamp(in[k][i], 0.0, bricks[k] * (n[k] - 1.0));
+        number = number * bricks[k] + std::min(static_cast<int>(q[k] / (n[k] - 1)), bricks[k] - 1);
+      }
+      const bool any = std::find(filled.begin(), filled.end(), number) != filled.end();
+      m.add(std::fabs(found[0][i] - (any ? value(channel, q[0], q[1], q[2]) : 0)) / largest, [&] {
         return place({{"channel", static_cast<double>(channel)}, {"x", in[0][i]}, {"y", in[1][i]}, {"z", in[2][i]}});
       });
     }
   }
+}
+
+Measured measure_sources(const Run& run) {
+  Measured m;
+  measure_source(run, {1, 1, 1}, {0}, m);
+  measure_source(run, {3, 2, 2}, {0, 1, 4, 5, 9, 11}, m);
   return m;
 }
 
@@ -84,7 +105,7 @@ Measured measure_source(const Run& run) {
 
 void add_network_checks(std::vector<Check>& checks) {
   checks.push_back({"link_shares", measure_links, "link_shares_double", "link_shares"});
-  checks.push_back({"source_in_volume", measure_source, "grid_value_double", "grid_value"});
+  checks.push_back({"source_in_volume", measure_sources, "grid_value_double", "grid_value"});
 }
 
 }  // namespace airlight
