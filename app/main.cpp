@@ -10,6 +10,7 @@
 #include "app/command.h"
 #include "app/tile.h"
 #include "common/fit/fit_gaussians.h"
+#include "common/scene/import_process.h"
 #include "common/scene/limits.h"
 #include "common/spelling.h"
 #include "common/techniques/technique.h"
@@ -60,6 +61,8 @@ constexpr const char* program_examples = R"(Examples
   airlight view fog.json
   airlight info smoke.vdb
   airlight fit smoke.vdb -n 2000 -o smoke.ply
+Meshes are read in a process of its own, which may take 10 s of CPU time and 4 GiB of memory, and for each MiB of the file
+0.5 s and 16 MiB more; what takes more, or ends it, is refused.
 )";
 constexpr const char* render_examples = R"(Examples
   airlight render street.glb -o street.png --visibility 80 --exposure 8
@@ -320,6 +323,7 @@ int run(int argc, char** argv) {
     throw InputError("airlight: " + std::string(e.what()) + " (airlight --help)");
   }
 
+  ImportProcess reads_meshes;  // before there is another thread
   static Terminal terminal(*view_command ? LogLevel::info
                            : f.fit.quiet ? LogLevel::error
                                          : level_of(f));  // outlives the thread that waits for signals

@@ -62,8 +62,10 @@ void ViewPanel::draw(double left, double height, const ViewReport& report) {
   ImGui::SetNextWindowPos({static_cast<float>(left), 0});
   ImGui::SetNextWindowSize({panel_width, static_cast<float>(height)});
   ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  // What is said stands below, so that nothing moves away under the mouse.
+  const float foot = 2 * ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("all", {0, -foot});
   ImGui::PushItemWidth(150);
-  if (!state_.status.empty()) ImGui::TextWrapped("%s", state_.status.c_str());
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) view();
   if (ImGui::CollapsingHeader("Tools", ImGuiTreeNodeFlags_DefaultOpen)) tools();
   if (ImGui::CollapsingHeader("Costs", ImGuiTreeNodeFlags_DefaultOpen)) costs(report);
@@ -71,6 +73,8 @@ void ViewPanel::draw(double left, double height, const ViewReport& report) {
   if (ImGui::CollapsingHeader("Lights and fog")) lights();
   if (ImGui::CollapsingHeader("File")) files();
   ImGui::PopItemWidth();
+  ImGui::EndChild();
+  ImGui::TextWrapped("%s", state_.status.c_str());
   ImGui::End();
 }
 

@@ -77,11 +77,14 @@ class Variables {
       out[5 * i + 4] = by[i].extinction * 2 * g.extinction * (1 + z[5 * i + 4] * s[4]) * s[4];
     }
   }
-  // By how much a step moves at the most, before the scales.
-  double largest(const Numbers& step) const {
-    double most = 0;
-    for (std::size_t i = 0; i < step.size(); ++i) most = std::max(most, std::abs(step[i] * scales_[i]));
-    return most;
+  // Gaussians that a step would move too far go as far as they may, each by itself: were the whole step shortened, one that
+  // hardly matters would hold all others.
+  void shorten(Numbers& step) const {
+    for (std::size_t i = 0; i < step.size(); i += 5) {
+      double most = 0;
+      for (std::size_t k = i; k < i + 5; ++k) most = std::max(most, std::abs(step[k] * scales_[k]));
+      for (std::size_t k = i; k < i + 5 && most > longest_step; ++k) step[k] *= longest_step / most;
+    }
   }
 
  private:
@@ -153,9 +156,10 @@ double descend(const FitCells& cells, GaussianSum& sum, int steps, std::vector<F
   Memory known;
   std::vector<double> values{value};
   for (int step = 0; step < steps; ++step) {
-    const Numbers way = known.direction(slope);
+    Numbers way = known.direction(slope);
+    variables.shorten(way);
     const double descent = dot(way, slope);
-    double length = std::min(1.0, longest_step / std::max(variables.largest(way), 1e-300)), tried_value = 0;
+    double length = 1, tried_value = 0;
     bool lower = false;
     for (int k = 0; k < 12 && !lower && descent < 0; ++k, length *= 0.5) {
       for (std::size_t i = 0; i < z.size(); ++i) next[i] = z[i] + length * way[i];

@@ -13,8 +13,9 @@ namespace airlight {
 
 namespace {
 
-constexpr int rounds = 4;             // of moving what matters least, at most
+constexpr int rounds = 8;             // of moving what matters least, at most
 constexpr double moved = 0.06;        // of all, in each of them
+constexpr double round_steps = 0.25;  // of those of a whole descent: the first few gain most
 constexpr double gained = 5e-3;       // of the squares: less is no reason for another round
 constexpr double early_steps = 0.25;  // of those of a whole descent, while Gaussians are still missing
 
@@ -23,7 +24,7 @@ class Fitting {
   Fitting(const SparseGrid& grid, const std::string& path, const FitOptions& options, const EachIndex& each, Progress& progress)
       : cells_(grid, path), sum_(cells_, each), options_(options), progress_(progress) {
     const double early = std::max(1.0, early_steps * options.steps);
-    all_steps_ = 3 * early + options.steps * (1 + 0.5 * rounds);
+    all_steps_ = 3 * early + options.steps * (1 + round_steps * rounds);
   }
 
   Fit run() {
@@ -78,7 +79,7 @@ class Fitting {
     gaussians_ = std::move(kept);
     sum_.half_squares(gaussians_, nullptr);
     add_at_peaks(cells_, static_cast<int>(count), sum_.rest(), gaussians_);
-    const double after = descent(0.5);
+    const double after = descent(round_steps);
     if (after < value) return after;
     gaussians_ = before;
     return value;

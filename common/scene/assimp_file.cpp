@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <new>
 
 #include "common/error.h"
 #include "common/scene/files.h"
@@ -48,11 +49,14 @@ class Stream final : public Assimp::MemoryIOStream {
 // Every file is read once, whole, and hashed.
 class Files final : public Assimp::IOSystem {
  public:
-  explicit Files(const Progress& progress) : progress_(progress) {}
+  Files(const BeforeReading& before_reading, const Progress& progress) : before_reading_(before_reading), progress_(progress) {}
 
   const std::string& bytes(const std::string& path) {
     const auto found = read_.find(path);
     if (found != read_.end()) return found->second;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (before_reading_ && !error) before_reading_(size);
     std::string content = read_file(path, most_bytes);
     hash_.add(fmt::format("{}:", content.size()));
     hash_.add(content);
@@ -77,6 +81,7 @@ class Files final : public Assimp::IOSystem {
   // Materials come from the scene file, so a missing or different material library changes nothing.
   static bool wanted(const std::string& path) { return lower_extension(path) != ".mtl"; }
 
+  const BeforeReading before_reading_;
   const Progress& progress_;
   std::map<std::string, std::string> read_;
   Sha256 hash_;
@@ -118,12 +123,15 @@ bool has_polygons(const std::string& path, const aiScene& scene) {
 }  // namespace
 
 struct AssimpFile::State {
-  explicit State(const Progress& progress) : files(new Files(progress)) { importer.SetIOHandler(files); }
+  State(const BeforeReading& before_reading, const Progress& progress) : files(new Files(before_reading, progress)) {
+    importer.SetIOHandler(files);
+  }
   Assimp::Importer importer;
   Files* files;  // the importer owns it
 };
 
-AssimpFile::AssimpFile(const std::string& path, Progress& progress) : state_(std::make_unique<State>(progress)) {
+AssimpFile::AssimpFile(const std::string& path, const BeforeReading& before_reading, Progress& progress)
+    : state_(std::make_unique<State>(before_reading, progress)) {
   Assimp::Importer& importer = state_->importer;
   const std::string extension = lower_extension(path);
   const std::string& bytes = state_->files->bytes(path);
@@ -140,6 +148,7 @@ AssimpFile::AssimpFile(const std::string& path, Progress& progress) : state_(std
     progress.check();
   }
   if (!importer.GetScene()) {
+    if (importer.GetErrorString() == std::string("std::bad_alloc")) throw std::bad_alloc();
     throw InputError(
         fmt::format("{}: not a readable {} file: {}", path, extension.substr(1), one_line(importer.GetErrorString())));
   }

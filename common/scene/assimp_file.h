@@ -7,14 +7,15 @@
 #include <string>
 
 #include "common/progress.h"
+#include "common/scene/mesh_import.h"
 
 namespace airlight {
 
 // Faces are triangles, lines or points; nothing else is changed by post-processing. Throws InputError "path: ..." for
-// what cannot be read, Interrupted. Material libraries and pictures that the file names are not opened.
+// what cannot be read, Interrupted, std::bad_alloc. Material libraries and pictures that the file names are not opened.
 class AssimpFile {
  public:
-  AssimpFile(const std::string& path, Progress&);
+  AssimpFile(const std::string& path, const BeforeReading&, Progress&);
   ~AssimpFile();
 
   const aiScene& scene() const;

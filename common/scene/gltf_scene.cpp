@@ -2,7 +2,6 @@
 // that several nodes share).
 #include "common/scene/gltf_scene.h"
 
-#include <assimp/material.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "common/scene/files.h"
 #include "common/scene/limits.h"
 #include "common/scene/mesh_check.h"
+#include "common/scene/mesh_file.h"
 #include "common/scene/parse.h"
 
 namespace airlight {
@@ -136,17 +136,16 @@ class GltfReader {
     if (!type) node.fail("missing key, expected \"type\"");
     static constexpr auto types = keys("point", "directional", "spot");
     const Node type_node(*type, file_, node.path() + ".type");
-    const std::string kind = type_node.choice(types);
-    if (kind == "spot") type_node.fail("spot lights are not supported by this version, expected point or directional");
+    const bool directional = type_node.choice(types) == "directional";  // else point, or spot, whose cone is left out
 
     LightSource l;
     glm::dvec3 color(1);
     double intensity = 1;
     if (const json::Value* c = member(node.value(), "color")) color = Node(*c, file_, node.path() + ".color").vec3({0, 1e6, ""});
     if (const json::Value* v = member(node.value(), "intensity")) {
-      intensity = Node(*v, file_, node.path() + ".intensity").number({0, 1e8, kind == "point" ? "cd" : "lx"});
+      intensity = Node(*v, file_, node.path() + ".intensity").number({0, 1e8, directional ? "lx" : "cd"});
     }
-    l.type = kind == "point" ? LightType::point : LightType::directional;
+    l.type = directional ? LightType::directional : LightType::point;
     l.power = color * intensity / lumens_a_watt;
     l.position = glm::dvec3(world[3]);
     if (l.type == LightType::directional) {
@@ -175,20 +174,6 @@ std::string json_of(const std::string& path, std::string bytes) {
   return bytes.size() >= 20 ? bytes.substr(20, length) : "";
 }
 
-// What an importer made of a material that the file does not say is left as assimp's default: white, matt.
-Material material_of(const aiMaterial& from) {
-  aiColor4D base(1, 1, 1, 1);
-  ai_real metallic = 0, roughness = 1;
-  from.Get(AI_MATKEY_BASE_COLOR, base);
-  if (from.Get(AI_MATKEY_METALLIC_FACTOR, metallic) != aiReturn_SUCCESS) {
-    Material plain;
-    plain.diffuse = glm::clamp(glm::vec3(base.r, base.g, base.b), 0.0F, 1.0F);
-    return plain;
-  }
-  from.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness);
-  return gltf_material(glm::dvec3(base.r, base.g, base.b), static_cast<double>(metallic), static_cast<double>(roughness));
-}
-
 // What the file says of its looks and is not rendered.
 std::vector<std::string> notes_of(const json::Value& root, const std::string& file) {
   std::vector<std::string> notes;
@@ -212,6 +197,18 @@ std::vector<std::string> notes_of(const json::Value& root, const std::string& fi
       alpha |= mode && mode->text != "OPAQUE";
     }
   }
+  bool spot = false, range = false;
+  const json::Value* extensions = member(root, "extensions");
+  const json::Value* punctual = extensions ? member(*extensions, "KHR_lights_punctual") : nullptr;
+  if (const json::Value* lights = punctual ? member(*punctual, "lights") : nullptr) {
+    for (const json::Value& l : lights->items) {
+      const json::Value* type = member(l, "type");
+      spot |= type && type->text == "spot";
+      range |= member(l, "range") != nullptr;
+    }
+  }
+  if (spot) note("the cones of spot lights are left out, they shine in all directions");
+  if (range) note("the range of lights is left out, they shine on");
   if (emissive) note("emission of materials is left out");
   if (alpha) note("transparency of materials is left out, they are opaque");
   if (const json::Value* used = member(root, "extensionsUsed")) {
@@ -259,14 +256,13 @@ GltfScene load_gltf(const std::string& path, std::optional<double> fog, Progress
 
   // One surface a material, in world coordinates. A scene without meshes is one of lights only.
   if (member(root, "meshes")) {
-    const AssimpFile file(path, progress);
-    for (unsigned i = 0; i < file.scene().mNumMaterials; ++i) {
+    ImportedFile file = read_mesh_parts(path, progress);
+    for (ImportedMesh& m : file.meshes) {
       Surface surface;
-      surface.mesh = mesh_of(file, path, static_cast<int>(i), false, progress);
-      if (!surface.mesh) continue;
-      surface.material = material_of(*file.scene().mMaterials[i]);
+      surface.mesh = std::move(m.mesh);
+      surface.material = m.material;
       scene.surfaces.push_back(std::move(surface));
-      out.loading.surfaces.push_back({file.content_hash(), false, {}, static_cast<int>(i)});
+      out.loading.surfaces.push_back({file.content_hash, false, {}, m.part});
     }
   }
   scene.hash = scene_hash(out.loading);

@@ -44,7 +44,7 @@ std::string gltf() {
              { "rotation": [-0.5, 0.1, 0.2, 0.8366600], "extensions": { "KHR_lights_punctual": { "light": 1 } } } ],
   "cameras": [ { "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1, "aspectRatio": 1.5 } } ],
   "extensions": { "KHR_lights_punctual": { "lights": [
-     { "type": "point", "color": [1, 0.8, 0.3], "intensity": 6830 }, { "type": "directional", "intensity": 341.5 } ] } },
+     { "type": "point", "color": [1, 0.8, 0.3], "intensity": 6830, "range": 20 }, { "type": "directional", "intensity": 341.5 } ] } },
   "materials": [ { "pbrMetallicRoughness": { "baseColorFactor": [0.8, 0.2, 0.1, 1], "metallicFactor": 0, "roughnessFactor": 0.4 },
                    "emissiveFactor": [1, 0, 0] },
                  { "pbrMetallicRoughness": { "baseColorFactor": [1, 0.7, 0.3, 1], "metallicFactor": 1, "roughnessFactor": 0.6 } } ],
@@ -123,6 +123,33 @@ TEST_F(Media, MeshesBecomeScenes) {
   refused("convert floor.obj -o floor.txt", "expected a name that ends with .json");
   refused("convert gone.glb -o gone.json", "gone.glb: no such file");
   refused("render floor.json -o a.exr --fog 1 --visibility 2", "excludes");
+}
+
+// A spot light is taken for a point light, and what is lost is told.
+TEST_F(Media, SpotLightsLoseTheirCones) {
+  std::string spot = gltf();
+  const std::string point = "\"type\": \"point\"";
+  spot.replace(spot.find(point), point.size(), R"("type": "spot", "spot": { "innerConeAngle": 0.2, "outerConeAngle": 0.5 })");
+  work.write("spot.gltf", spot);
+  const Told told = work.run("convert spot.gltf -o spot.json");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(told.err.find("spot.gltf: the cones of spot lights are left out, they shine in all directions\n"), std::string::npos);
+  EXPECT_NE(told.err.find("spot.gltf: the range of lights is left out, they shine on\n"), std::string::npos) << told.err;
+  ASSERT_EQ(work.run("convert scene.gltf -o point.json").code, 0);
+  std::string same = content(work.path("spot.json"));
+  for (std::size_t at = 0; (at = same.find("spot.gltf", at)) != std::string::npos;) same.replace(at, 9, "scene.gltf");
+  EXPECT_EQ(same, content(work.path("point.json")));
+  EXPECT_EQ(work.run("render spot.gltf -o a.pfm --resolution 16x12").err, told.err);
+}
+
+// What would take all memory takes its own process's, and the program tells so.
+TEST_F(Media, HugeMeshesAreRefused) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "memory is not bounded under a sanitizer";
+#endif
+  work.write("huge.off", "OFF\n2000000000 2000000000 0\n0 0 0\n");
+  refused("info huge.off", "huge.off: takes more than 4096 MiB of memory to read, expected less");
+  refused("convert huge.off -o huge.json", "huge.off: takes more than 4096 MiB of memory to read");
 }
 
 TEST_F(Media, FitsWithTheSameBytesOnAnyThreads) {

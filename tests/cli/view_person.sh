@@ -41,7 +41,8 @@ cat >"$work/scene.json" <<'SCENE'
 SCENE
 cp "$scenes/ground.obj" "$work/"
 
-start() {  # SCENE NAME...
+start() {  # SCENE [-o OUTPUT ...]
+  written=$(basename "${3:-$1}" .json)
   "$airlight" view "$@" --size 160x120 --threads 2 >"$work/log" 2>&1 &
   viewer=$!
   wait_for "window" xdotool search --onlyvisible --name "airlight $1"
@@ -59,13 +60,30 @@ count=0
 picture() {
   count=$((count + 1))
   xdotool key p
-  wait_for "picture $count" test -s "$work/saved_picture_1.png"
-  mv "$work/saved_picture_1.png" "$work/$count.png"
+  wait_for "picture $count" test -s "$work/${written}_picture_1.png"
+  mv "$work/${written}_picture_1.png" "$work/$count.png"
 }
 drag() {  # X Y X Y: with the left button, in a few moves
   xdotool mousemove --window "$window" "$1" "$2" mousedown 1
   for k in 1 2 3 4; do xdotool mousemove --window "$window" $(($1 + ($3 - $1) * k / 4)) $(($2 + ($4 - $2) * k / 4)); done
   xdotool mouseup 1
+}
+# The window has been drawn since: it writes what it shows.
+drawn() {
+  xdotool key shift+p
+  wait_for "window" test -s "$work/${written}_window_1.png"
+  rm "$work/${written}_window_1.png"
+}
+click() {  # X Y: in the panel, which looks at the mouse when it is drawn
+  xdotool mousemove --window "$window" "$1" "$2" && drawn
+  xdotool mousedown 1 && drawn
+  xdotool mouseup 1 && drawn
+}
+slide() {  # X Y X: the same with a slider
+  xdotool mousemove --window "$window" "$1" "$2" && drawn
+  xdotool mousedown 1 && drawn
+  xdotool mousemove --window "$window" "$3" "$2" && drawn
+  xdotool mouseup 1 && drawn
 }
 same() { cmp -s "$work/$1.png" "$work/$2.png"; }
 
@@ -110,9 +128,59 @@ stop
 "$airlight" edit scene.json edits.jsonl -o replayed.json
 cmp saved.json replayed.json || fail "the record does not give the scene that was saved"
 step "the record gives the saved scene"
-start saved.json -o saved.json
+start saved.json -o again.json --record again.jsonl
 picture                                   # 9
 same 8 9 || fail "the saved scene is another"
 step "loaded what was saved: the same picture"
+
+# The panel: its rows are 23 pixels high, its sliders 150 wide from column 168 on. The window is made higher to see them.
+xdotool windowsize --sync "$window" 500 560
+recorded() { wait_for "$1 in the record" grep -q "$1" again.jsonl; }
+xdotool key 3                             # the airbrush, for as long as the button is held
+xdotool mousemove --window "$window" 30 200 mousedown 1
+for y in 210 220 230 240; do sleep 0.15 && xdotool mousemove --window "$window" 40 "$y"; done
+xdotool mouseup 1
+recorded '"edit": "airbrush"'
+picture                                   # 10
+xdotool key ctrl+z
+picture                                   # 11
+! same 10 11 || fail "the airbrush changes nothing"
+xdotool key ctrl+y
+step "sprayed with the airbrush"
+xdotool key 6
+drag 4 4 156 556                          # all of the picture
+xdotool key ctrl+c mousemove --window "$window" 110 150 key ctrl+v
+recorded '"edit": "copy"'
+recorded '"edit": "paste"'
+picture                                   # 12
+! same 10 12 || fail "pasting changes nothing"
+step "copied what is in a rectangle, pasted it elsewhere"
+xdotool key 2
+slide 230 179 290                         # the radius of what is painted
+drag 20 170 60 120
+recorded '"edit": "paint"'
+radius=$(sed -n 's/.*"edit": "paint".*"radius": \([0-9.]*\).*/\1/p' again.jsonl)
+[ "${radius%.*}" -ge 1 ] || fail "the slider did not change the radius: $radius"
+step "moved a tool's slider: a radius of $radius"
+picture                                   # 13
+xdotool key 1                             # which has no sliders
+click 320 202                             # the costs go away, which moves the technique's header there
+click 320 225
+slide 200 271 290                         # its first number
+recorded '"edit": "technique"'
+picture                                   # 14
+! same 13 14 || fail "a setting of the technique changes nothing"
+step "moved a technique's slider: $(grep -o '"settings".*' again.jsonl | tail -n 1)"
+xdotool windowsize --sync "$window" 500 120
+picture                                   # 15
+xdotool key ctrl+s
+wait_for "saved scene" test -s again.json
+stop
+"$airlight" edit saved.json again.jsonl -o replayed.json
+cmp again.json replayed.json || fail "the second record does not give the scene that was saved"
+start again.json
+picture                                   # 16
+same 15 16 || fail "the scene saved after the sliders is another"
+step "saved and loaded again: the same picture"
 stop
 echo "$count pictures"

@@ -14,6 +14,7 @@
 #include "common/fit/depth_error.h"
 #include "common/fit/descent.h"
 #include "common/fit/placement.h"
+#include "common/random.h"
 #include "common/scene/grid_file.h"
 #include "tests/tolerances.h"
 
@@ -86,6 +87,27 @@ TEST(FitGaussians, FindsThoseThatAGridIsMadeOf) {
   EXPECT_LE(fit.density_error, tolerance("fit_known"));
   EXPECT_LE(depth, tolerance("fit_depth_of_cells"));
   EXPECT_DOUBLE_EQ(other, 1);
+}
+
+// More Gaussians leave less, also of a density with many sizes and of few steps: one that has hardly anything to do must not hold
+// the others.
+TEST(FitGaussians, MoreOfThemLeaveLess) {
+  std::vector<Gaussian> many(300);
+  Random random({0x66697463U, 0}, 0);
+  for (Gaussian& g : many) {
+    for (int k = 0; k < 3; ++k) g.center[k] = glm::dvec3(100, -20, 7)[k] + 1.2 * (random.next() - 0.5);
+    const double size = random.next();
+    g.radius = 0.06 + 0.2 * size * size * size, g.extinction = 0.02 / (g.radius * g.radius);
+  }
+  const SparseGrid grid = sampled(many);
+  NoProgress none;
+  double before = 1;
+  for (const int count : {200, 400, 800}) {
+    const Fit fit = fit_gaussians(grid, "grid", {.count = count, .steps = 20}, forward, none);
+    std::printf("%d Gaussians: density %.2f %% off\n", count, 100 * fit.density_error);
+    EXPECT_LT(fit.density_error, before);
+    before = fit.density_error;
+  }
 }
 
 TEST(FitGaussians, SlopesAreThoseOfTheSquares) {
