@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -44,7 +45,8 @@ struct SourceFunction {
   // How the table begins, but for its largest value.
   std::vector<float> head() const {
     std::vector<float> head(head_floats(), -1.0F);
-    for (int axis = 0; axis < 3; ++axis) head[axis] = nodes[axis], head[4 + axis] = bricks[axis];
+    std::copy_n(&nodes.x, 3, head.begin());
+    std::copy_n(&bricks.x, 3, head.begin() + 4);
     head[3] = 0, head[7] = static_cast<float>(head.size());
     for (std::size_t k = 0; k < filled.size(); ++k) head[8 + static_cast<std::size_t>(filled[k])] = static_cast<float>(k);
     return head;
