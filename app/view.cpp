@@ -63,6 +63,7 @@ class Viewer {
 
   void run() {
     session_.begin_record();
+    if (c_.fog) session_.apply(FogEdit{*c_.fog});
     Clock::time_point last = Clock::now();
     while (!window_.closed() && !terminal_.stop_requested()) {
       const bool lively = input_.moving() || wants_something();
