@@ -77,6 +77,7 @@ int edit(const EditCommand&, Terminal&);
 
 struct ViewCommand {
   std::string scene, output, record;
+  std::optional<double> fog;  // [1/m] extinction in place of the scene's: the first edit
   RendererOptions renderer;
   Extent size{800, 600};  // of the picture
 };

@@ -8,6 +8,7 @@
 
 #include "app/command.h"
 #include "common/scene/gaussians_file.h"
+#include "common/scene/gltf_scene.h"
 #include "common/scene/nrrd_file.h"
 #include "common/scene/sparse_grid.h"
 #include "common/scene/vdb_summary.h"
@@ -112,6 +113,7 @@ void info_of_scene(const std::string& path, Progress& progress) {
   std::size_t triangles = 0;
   for (const Surface& s : scene.surfaces) triangles += s.mesh->triangles.size();
   fmt::print("\nsurfaces {}, {} triangles\n", scene.surfaces.size(), triangles);
+  for (const std::string& note : gltf_notes(path)) fmt::print("{}\n", note);
 }
 
 }  // namespace

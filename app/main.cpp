@@ -310,6 +310,7 @@ int run(int argc, char** argv) {
   merge_command->footer(merge_examples);
   CLI::App* edit_command = add_edit_command(program, f.edit);
   CLI::App* view_command = add_view_command(program, f.view, f.view_size);
+  add_fog_flags(*view_command, f.view.fog);
   CLI::App* fit_command = add_fit(program, f.fit);
   CLI::App* convert_command = add_convert(program, f.convert);
   CLI::App* info_command = program.add_subcommand("info", "print backends, SIMD targets, GL contexts and libraries");

@@ -16,6 +16,7 @@
 #include "app/view_session.h"
 #include "app/view_window.h"
 #include "app/view_worker.h"
+#include "common/scene/gltf_scene.h"
 
 namespace airlight {
 
@@ -57,10 +58,12 @@ class Viewer {
     state_.eraser_radius = static_cast<float>(size / 15), state_.eraser_amount = static_cast<float>(5 / size);
     state_.emitter.velocity = {0, size / 8, 0}, state_.emitter.spread = size / 60;
     state_.airbrush.spread = size / 10, state_.airbrush.diffusion = size * size / 2000;
+    for (const std::string& note : gltf_notes(c.scene)) terminal_.log(LogLevel::warning, note);
   }
 
   void run() {
     session_.begin_record();
+    if (c_.fog) session_.apply(FogEdit{*c_.fog});
     Clock::time_point last = Clock::now();
     while (!window_.closed() && !terminal_.stop_requested()) {
       const bool lively = input_.moving() || wants_something();

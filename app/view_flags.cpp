@@ -10,6 +10,7 @@ namespace {
 constexpr const char* examples = R"(Examples
   airlight view scenes/fog_bunny.json
   airlight view fog.json --backend gl -o painted.json --record painted.jsonl
+  airlight view street.glb --visibility 80
 Mouse: left uses the tool (drags a light's ring, whatever the tool), right turns, middle shifts, wheel goes nearer.
 Keys: 1-6 tools, B backend CPU or GL, R reference, V split view, F frame, Home first view, W A S D Q E fly, Ctrl+Z undo,
       Ctrl+Y redo, Ctrl+C copy, Ctrl+V paste, Ctrl+S save, P picture, Shift+P window, Tab panel, Esc cancel.

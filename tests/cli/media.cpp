@@ -140,6 +140,7 @@ TEST_F(Media, SpotLightsLoseTheirCones) {
   for (std::size_t at = 0; (at = same.find("spot.gltf", at)) != std::string::npos;) same.replace(at, 9, "scene.gltf");
   EXPECT_EQ(same, content(work.path("point.json")));
   EXPECT_EQ(work.run("render spot.gltf -o a.pfm --resolution 16x12").err, told.err);
+  EXPECT_TRUE(work.run("info spot.gltf").out.ends_with(told.err));
 }
 
 // What would take all memory takes its own process's, and the program tells so.

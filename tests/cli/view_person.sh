@@ -128,14 +128,15 @@ stop
 "$airlight" edit scene.json edits.jsonl -o replayed.json
 cmp saved.json replayed.json || fail "the record does not give the scene that was saved"
 step "the record gives the saved scene"
-start saved.json -o again.json --record again.jsonl
+start saved.json -o again.json --record again.jsonl --fog 0.02   # as it was: the same picture
+recorded() { wait_for "$1 in the record" grep -q "$1" again.jsonl; }
+recorded '"edit": "fog"'
 picture                                   # 9
 same 8 9 || fail "the saved scene is another"
 step "loaded what was saved: the same picture"
 
 # The panel: its rows are 23 pixels high, its sliders 150 wide from column 168 on. The window is made higher to see them.
 xdotool windowsize --sync "$window" 500 560
-recorded() { wait_for "$1 in the record" grep -q "$1" again.jsonl; }
 xdotool key 3                             # the airbrush, for as long as the button is held
 xdotool mousemove --window "$window" 30 200 mousedown 1
 for y in 210 220 230 240; do sleep 0.15 && xdotool mousemove --window "$window" 40 "$y"; done

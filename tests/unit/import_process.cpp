@@ -24,11 +24,12 @@ ImportedFile hostile(const MeshRequest& request, const BeforeReading& before_rea
     for (std::uint64_t i = 0; i < 16 * gigabytes; ++i) taken.emplace_back(new char[gigabyte / 16]);
     return taken.size();
   };
-  if (what == "ends") raise(SIGSEGV);
+  if (what == "ends") signal(SIGSEGV, SIG_DFL), raise(SIGSEGV);  // a sanitizer would answer it
   if (what == "aborts") std::abort();
   if (what == "exits") _exit(0);
   if (what == "spins") {
-    for (volatile int i = 0;;) i = 1;
+    volatile bool on = true;
+    while (on) continue;
   }
   if (what == "waits") pause();
   if (what == "takes") takes(5);
