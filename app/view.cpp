@@ -105,7 +105,9 @@ class Viewer {
       panes_.push_back({{0, 0}, {width, height}});
     } else {
       const glm::dvec2 half(std::floor(width / 2), std::floor(height / 2));
-      for (int i = 0; i < 4; ++i) panes_.push_back({{(i % 2) * half.x, (i / 2) * half.y}, half - 1.0});
+      for (const double down : {0.0, half.y}) {
+        for (const double across : {0.0, half.x}) panes_.push_back({{across, down}, half - 1.0});
+      }
     }
   }
   Extent pane_extent() const { return {static_cast<int>(panes_[0].size.x), static_cast<int>(panes_[0].size.y)}; }

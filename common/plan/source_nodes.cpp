@@ -108,14 +108,16 @@ std::optional<SourceNodes> laid(const std::vector<Ball>& balls, int stride, std:
   return made;
 }
 
+std::int64_t nodes_of(const glm::ivec3& cells) { return std::int64_t{cells.x + 1} * (cells.y + 1) * (cells.z + 1); }
+
 // One box; of cells smaller than asked for where most of the medium is narrower, as long as there are no more than `most` nodes.
-MediumBox box_of(const Scene& scene, double radius, int resolution, std::size_t most) {
+MediumBox box_of(const Scene& scene, double radius, int resolution, std::int64_t most) {
   MediumBox box = medium_box(scene, resolution, lost_beside_box);
   if (scene.medium.grid || radius >= box.cell) return box;
   for (int finer = resolution; radius < 2 * box.cell;) {
     finer += (finer + 7) / 8;
     const MediumBox next = medium_box(scene, finer, lost_beside_box);
-    if ((next.cells.x + std::size_t{1}) * (next.cells.y + std::size_t{1}) * (next.cells.z + std::size_t{1}) > most) break;
+    if (nodes_of(next.cells) > most) break;
     box = next;
   }
   return box;
@@ -125,8 +127,8 @@ MediumBox box_of(const Scene& scene, double radius, int resolution, std::size_t 
 
 SourceNodes source_nodes(const Scene& scene, const NetworkFrame& frame, int resolution) {
   const double radius = middle_radius(scene.medium.gaussians);
-  const auto side = static_cast<std::size_t>(resolution) + 1, of_brick = std::size_t{brick_cells + 1};
-  const MediumBox box = box_of(scene, radius, resolution, side * side * side);
+  const std::int64_t most_nodes = nodes_of(glm::ivec3(resolution));
+  const MediumBox box = box_of(scene, radius, resolution, most_nodes);
   SourceNodes made;
   made.first = glm::floor((box.corner - frame.middle) / frame.unit);
   made.stride = static_cast<int>(std::ceil(box.cell / frame.unit));
@@ -134,7 +136,7 @@ SourceNodes source_nodes(const Scene& scene, const NetworkFrame& frame, int reso
   if (scene.medium.grid) return made;
   // From an eighth of a radius on, as a cloud of that size alone has them by default. Nodes side by side are in both bricks:
   // cells that are not much finer are not worth that.
-  const std::size_t most = side * side * side / (of_brick * of_brick * of_brick);
+  const auto most = static_cast<std::size_t>(most_nodes / nodes_of(glm::ivec3(brick_cells)));
   const int finest = std::max(static_cast<int>(std::min(radius / 8, box.cell) / frame.unit), 1);
   const auto finer = [&, than = made.stride](int stride) { return 3 * stride <= 2 * than; };
   const std::vector<Ball> balls = finer(finest) ? balls_of(scene, frame) : std::vector<Ball>();
