@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -44,10 +43,9 @@ struct SourceFunction {
   std::size_t floats() const { return head_floats() + 3 * all_nodes(); }
   // How the table begins, but for its largest value.
   std::vector<float> head() const {
-    std::vector<float> head(head_floats(), -1.0F);
-    std::copy_n(&nodes.x, 3, head.begin());
-    std::copy_n(&bricks.x, 3, head.begin() + 4);
-    head[3] = 0, head[7] = static_cast<float>(head.size());
+    const auto all = static_cast<float>(head_floats());
+    std::vector<float> head{nodes.x, nodes.y, nodes.z, 0, bricks.x, bricks.y, bricks.z, all};
+    head.resize(head_floats(), -1.0F);
     for (std::size_t k = 0; k < filled.size(); ++k) head[8 + static_cast<std::size_t>(filled[k])] = static_cast<float>(k);
     return head;
   }

@@ -23,8 +23,8 @@ constexpr double most_peak = 1e30, least_peak = 1e-30;
 // The cube root of a finite number, > 0. (The C library's bits depend on the machine.)
 double cube_root(double x) {
   double scale = 1;
-  for (; x >= 8; x /= 8) scale *= 2;
-  for (; x < 1; x *= 8) scale /= 2;
+  while (x >= 8) x /= 8, scale *= 2;
+  while (x < 1) x *= 8, scale /= 2;
   double root = 1.5;  // of 1..8: 1..2, where Newton's steps double the digits from the first on
   for (int i = 0; i < 6; ++i) root = (2 * root + x / (root * root)) / 3;
   return root * scale;

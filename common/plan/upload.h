@@ -15,7 +15,7 @@ namespace airlight {
 template <class Make>
 Plan::Upload table_upload(Buffer buffer, std::uint64_t key, Make make) {
   return {buffer, key, [make = std::move(make)] {
-            const std::vector<float> values = make();
+            const std::vector<float>& values = make();
             const auto bytes = std::as_bytes(std::span(values));
             return std::vector<std::byte>(bytes.begin(), bytes.end());
           }};
