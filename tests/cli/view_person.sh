@@ -109,7 +109,7 @@ picture                                   # 5
 step "erased"
 xdotool key 1
 drag 80 60 40 30                          # the lamp's ring is in the middle
-grep -q '"edit": "light"' edits.jsonl || fail "the lamp did not move"
+wait_for "lamp that moved" grep -q '"edit": "light"' edits.jsonl
 picture                                   # 6
 ! same 5 6 || fail "moving the lamp changes nothing"
 step "dragged the lamp"

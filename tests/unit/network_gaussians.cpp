@@ -107,6 +107,7 @@ TEST(NetworkGaussians, BadMediaAreRefused) {
             "particle_set=sampled");
   scene.medium.grid.reset();
   scene.medium.gaussians.assign(100001, scene.medium.gaussians[0]);
+  for (Gaussian& g : scene.medium.gaussians) g.center.x += 1e-5 * static_cast<double>(&g - scene.medium.gaussians.data());
   EXPECT_EQ(refused(),
             "setting particle_set: gaussians would be 100001 particles; expected at most 100000, or particle_set=sampled");
   settings.knobs[0].second = "balls";
