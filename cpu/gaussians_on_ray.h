@@ -191,15 +191,16 @@ HWY_INLINE Real GaussiansOnRay::shading(const GaussianPanels::Shade& s, std::siz
   const Real3 way = toward_light(a.lights[k], place, length);
   for (std::uint32_t n = s.shading.begin; n < s.shading.end; ++n) {
     const std::uint32_t word = panels.indices()[n], index = word & ~GaussianPanels::around_light;
-    const Real3 e = to_center(a.gaussians[index], place);
-    Real foot, h;
-    perpendicular(way.x, way.y, way.z, e.x, e.y, e.z, 0.0, foot, h);
-    const Mask met = h < a.gaussians[index].reach;
+    const GaussianDensity& g = a.gaussians[index];
+    const Real3 e = to_center(g, place);
+    Real foot, h2;
+    perpendicular_squared(way.x, way.y, way.z, e.x, e.y, e.z, foot, h2);
+    const Mask met = h2 < g.reach * g.reach;
     if (!any_lane(met)) continue;
     const float inverse = terms[index].inverse;
     const bool whole_way = word == index;  // the light stands beyond it
-    const Real share =
-        whole_way ? gaussian_depth_beyond(erf, inverse, h, -foot) : gaussian_depth(erf, inverse, h, -foot, length - foot);
+    const Real share = gaussian_between(gaussian_falloff(inverse, h2), erf_of(foot * -inverse),
+                                        whole_way ? Real(1.0) : erf_of((length - foot) * inverse));
     depth = fma(select(met, share, 0.0), terms[index].whole, depth);
   }
   return depth;
