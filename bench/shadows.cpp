@@ -210,7 +210,7 @@ void scaling() {
   fmt::print(
       "\nOne torus, three lights: thread time of `shadow_planes` [ms]:\n\n| triangles, 800 x 600 | light flickers | light moves: "
       "whole frame |\n|---|---|---|\n");
-  for (const std::size_t n : {1000, 10000, 100000, 1000000}) {
+  for (const std::size_t n : {1000U, 10000U, 100000U, 1000000U}) {
     const Scene scene = test_scene(n);
     const RenderSettings settings = settings_of(full, "on", "off");
     const Timed still = timed(scene, settings, flicker, 5), moved = timed(scene, settings, move_light, 5);
