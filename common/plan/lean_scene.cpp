@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/plan/hash.h"
 
 namespace airlight {
 
