@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
@@ -52,7 +53,7 @@ std::vector<int> frame_numbers(const std::string& asked, const std::optional<Fra
 std::vector<int> frames_of(const RenderCommand& c, SceneFile& file) {
   if (c.frames.empty()) return {file.frames().first};
   if (!file.animated()) throw InputError(c.scene + ": has no \"animation\", expected one for --frames");
-  const std::vector<int> frames = frame_numbers(c.frames, file.frames());
+  std::vector<int> frames = frame_numbers(c.frames, file.frames());
   for (const std::string& name : {c.output, c.stats_file}) {
     if (frames.size() == 1 || name.empty() || has_frame_pattern(name)) continue;
     throw InputError(fmt::format("{}: no place for the number of the frame, expected a name such as frame.####.exr", name));
@@ -83,7 +84,7 @@ void SequenceProgress::begin(int frame) {
   if (frames_ == 1) return;
   title_ = fmt::format("frame {}, {} of {}", frame, done_ + 1, frames_);
   if (rendered_ == 0) return;
-  const auto left = static_cast<int>(seconds_ / static_cast<double>(rendered_) * static_cast<double>(frames_ - done_) + 0.5);
+  const auto left = std::lround(seconds_ / static_cast<double>(rendered_) * static_cast<double>(frames_ - done_));
   title_ += fmt::format(", about {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60);
 }
 

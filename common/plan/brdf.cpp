@@ -42,7 +42,8 @@ Lobe lobe_of(const Brdf& brdf, double level) {
     f64::sh_basis(order, light.x, light.y, light.z, basis);
     for (int l = 0; l < order; ++l) {
       for (int m = 0; m <= l; ++m) {
-        auto& to = lobe[static_cast<std::size_t>(l * (l + 1) / 2 + m)];
+        const int at = l * (l + 1) / 2 + m;
+        auto& to = lobe[static_cast<std::size_t>(at)];
         for (int c = 0; c < 3; ++c) to[static_cast<std::size_t>(c)] += basis[l * (l + 1) + m] * angle * sent[c];
       }
     }
@@ -141,6 +142,7 @@ std::vector<int> brdf_places(std::span<const std::shared_ptr<const Brdf>> brdfs)
 std::vector<float> brdf_lobes(const Brdf& brdf) {
   const Brdf from = both_sides(brdf);
   std::vector<float> lobes;
+  lobes.reserve(std::size_t{2} * axes + 1);
   for (int j = 0; j < axes; ++j) lobes.push_back(static_cast<float>(std::cos(axis_angle(j))));
   for (int j = 0; j < axes; ++j) lobes.push_back(static_cast<float>(std::sin(axis_angle(j))));
   lobes.push_back(static_cast<float>(brdf_viewing_angles));

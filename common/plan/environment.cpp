@@ -64,10 +64,11 @@ EnvironmentHarmonics projected(std::span<const float> image) {
       for (int l = 0; l < order; ++l) {
         const int middle = l * (l + 1);
         for (int m = 0; m <= l; ++m) {
-          const double shared = weight * v[middle + m];
+          const int right = middle + m, left = middle - m;
+          const double shared = weight * v[right];
           const auto k = static_cast<std::size_t>(m);
-          sum[channel][static_cast<std::size_t>(middle + m)] += shared * f.cosine[channel][k];
-          if (m > 0) sum[channel][static_cast<std::size_t>(middle - m)] += shared * f.sine[channel][k];
+          sum[channel][static_cast<std::size_t>(right)] += shared * f.cosine[channel][k];
+          if (m > 0) sum[channel][static_cast<std::size_t>(left)] += shared * f.sine[channel][k];
         }
       }
     }

@@ -62,6 +62,7 @@ Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, con
   for (const Light& light : lights) key.add(light.vector), key.add(light.directional);
   return table_upload({{id}, 0}, key.value(), [seen, lights] {
     std::vector<double> depths;
+    depths.reserve(lights.size());
     for (const Light& light : lights)
       depths.push_back(light.directional ? depth_toward(*seen, -glm::dvec3(light.vector)) : depth_to(*seen, light.vector));
     return as_floats(depths);
