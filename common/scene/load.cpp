@@ -65,7 +65,7 @@ void check_emission(const Node& medium, const Scene& scene) {
 Object whole_scene(const json::Value& root, const std::string& name) {
   static constexpr auto known =
       keys("airlight", "camera", "sky_distance", "medium", "lights", "surfaces", "background", "noise", "animation", "technique");
-  const Object o(Node(root, name, ""), known);
+  Object o(Node(root, name, ""), known);
   const Node version = o.require("airlight");
   if (version.value().kind != json::Kind::number || version.value().number != 1)
     version.fail("unknown format version, expected 1");

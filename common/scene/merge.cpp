@@ -88,6 +88,7 @@ std::vector<std::string> merge_tiles(std::span<const std::string> paths, const s
   const Extent extent = tiles[0].extent;
   const std::vector<ImageLayer> layers = layers_of(tiles[0].channels);
   std::vector<ImageWriter::Layer> images;
+  images.reserve(layers.size());
   for (const ImageLayer& layer : layers) images.push_back({layer.name, static_cast<int>(layer.channels.size())});
   ImageWriter writer(output, images, extent, {}, options);
   for (const Tile& tile : tiles) {
