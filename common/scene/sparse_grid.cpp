@@ -123,8 +123,8 @@ void SparseGridBuilder::set(const glm::ivec3& least, const glm::ivec3& most, flo
         const auto end = [&](int k) { return std::min(most[k] - block.first[k], 7); };
         for (int z = begin(2); z <= end(2); ++z) {
           for (int y = begin(1); y <= end(1); ++y) {
-            const int row = 8 * (y + 8 * z);
-            for (int x = begin(0); x <= end(0); ++x) block.values[static_cast<std::size_t>(row + x)] = value;
+            const auto first = block.values.begin() + 8 * (y + 8 * z);
+            std::fill(first + begin(0), first + end(0) + 1, value);
           }
         }
       }
