@@ -218,7 +218,10 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
       if (input.step >= 0) input.step += static_cast<int>(made.size());
   }
   frame.stats.steps.insert(frame.stats.steps.begin(), made.begin(), made.end());
-  for (const std::string& name : settings.images) frame.images.push_back({name, images.at(name)});
+  for (const std::string& name : settings.images) {
+    auto image = images.extract(name);  // empty where it is asked for again
+    frame.images.push_back({name, image ? std::move(image.mapped()) : frame.image(name)});
+  }
   return frame;
 }
 

@@ -30,26 +30,23 @@ void HeldImage::reset(const Image& image, Rows rows) {
   values_.resize(floats_per_tile_ * static_cast<std::size_t>(tiling_.count()));
 }
 
-// copy(in the tile, in the rows, pixels): each of these rows of each tile of each plane; in the rows a pixel's channels lie side
-// by side.
+// copy(in the tile, in the rows, pixels): each of these rows of each tile of each layer. In the rows a pixel's channels lie side
+// by side, in the tile they are tile_pixels apart.
 template <class Copy>
 void HeldImage::each_row_piece(Rows wanted, Copy&& copy) const {
-  const int planes = channels(image_.format);
+  const auto planes = static_cast<std::size_t>(channels(image_.format));
   const auto width = static_cast<std::size_t>(image_.extent.width);
   const auto layer_pixels = width * static_cast<std::size_t>(wanted.count());
   for (int t = 0; t < tiling_.count(); ++t) {
     const Tile at = tiling_.tile(t);
     const int columns = std::min(tile_side, image_.extent.width - at.x);
     const int first = std::max(wanted.first - at.y, 0), end = std::min(tile_side, wanted.end - at.y);
-    float* plane = tile(t);
-    for (int layer = 0; layer < image_.layers; ++layer) {
-      for (int c = 0; c < planes; ++c, plane += tile_pixels) {
-        for (int y = first; y < end; ++y) {
-          const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels +
-                                    static_cast<std::size_t>(at.y + y - wanted.first) * width + static_cast<std::size_t>(at.x);
-          copy(plane + static_cast<std::ptrdiff_t>(y) * tile_side,
-               pixel * static_cast<std::size_t>(planes) + static_cast<std::size_t>(c), columns, planes);
-        }
+    float* pixels = tile(t);
+    for (int layer = 0; layer < image_.layers; ++layer, pixels += planes * tile_pixels) {
+      for (int y = first; y < end; ++y) {
+        const std::size_t pixel = static_cast<std::size_t>(layer) * layer_pixels +
+                                  static_cast<std::size_t>(at.y + y - wanted.first) * width + static_cast<std::size_t>(at.x);
+        copy(pixels + static_cast<std::ptrdiff_t>(y) * tile_side, pixel * planes, columns);
       }
     }
   }
@@ -57,8 +54,11 @@ void HeldImage::each_row_piece(Rows wanted, Copy&& copy) const {
 
 void HeldImage::from_rows(std::span<const float> rows) {
   if (rows.size() != image_.floats()) throw std::logic_error("image upload: wrong number of floats");
-  each_row_piece({0, image_.extent.height}, [&](float* in_tile, std::size_t first, int pixels, int stride) {
-    for (int x = 0; x < pixels; ++x) in_tile[x] = rows[first + static_cast<std::size_t>(x * stride)];
+  const int planes = channels(image_.format);
+  each_row_piece({0, image_.extent.height}, [&](float* in_tile, std::size_t first, int pixels) {
+    for (int x = 0; x < pixels; ++x) {
+      for (int c = 0; c < planes; ++c) in_tile[c * tile_pixels + x] = rows[first + static_cast<std::size_t>(x * planes + c)];
+    }
   });
 }
 
@@ -87,8 +87,15 @@ void HeldImage::to_rows(Rows asked, std::span<float> rows) const {
   Image part = image_;
   part.extent.height = wanted.count();
   if (rows.size() != part.floats()) throw std::logic_error("image download: wrong number of floats");
-  each_row_piece(wanted, [&](const float* in_tile, std::size_t first, int pixels, int stride) {
-    for (int x = 0; x < pixels; ++x) rows[first + static_cast<std::size_t>(x * stride)] = in_tile[x];
+  const int planes = channels(image_.format);
+  each_row_piece(wanted, [&](const float* in_tile, std::size_t first, int pixels) {
+    float* to = rows.data() + first;
+    if (planes == 1) {
+      std::copy_n(in_tile, pixels, to);
+      return;
+    }
+    const float *red = in_tile, *green = red + tile_pixels, *blue = green + tile_pixels;
+    for (int x = 0; x < pixels; ++x) to[3 * x] = red[x], to[3 * x + 1] = green[x], to[3 * x + 2] = blue[x];
   });
 }
 

@@ -11,9 +11,6 @@ namespace airlight {
 
 class SampleWindow {
  public:
-  // Rows of samples, from the second above the tile's first one on.
-  static constexpr int rows_before = 2, rows = tile_side / 2 + 4;
-
   // In a row of samples, for each column of pixels: the sample at its left, the one at its right, their bend and its size.
   struct Row {
     const float *left, *right, *bend, *size;
@@ -21,8 +18,8 @@ class SampleWindow {
 
   SampleWindow(const DepthAwareUpsample&, const TileView&);
 
-  Extent extent;  // of all samples
-  int first_row;  // of the window, in samples
+  Extent extent;        // of all samples
+  int first_row, rows;  // of the window, in samples
   // Plane 0 is 1/distance, 1 .. 3 are channels of airlight, 4 is the transmittance; then come three channels a light.
   static constexpr int transmittance_plane = 4, first_light_plane = 5;
   Row row(int plane, int sample_row) const {
