@@ -34,8 +34,8 @@ struct March {
   MediumLookup medium;
   LitRays lit;
   RadianceBound bound;
-  bool one_albedo, emits;
-  table sources;  // null without
+  bool peaked, one_albedo, emits;  // peaked: the phase function has a peak
+  table sources;                   // null without
   float* scratch;
 
   int i = 0;             // the first pixel
@@ -62,6 +62,7 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, co
       medium(algorithm, tile_view),
       lit(lit_rays),
       bound(algorithm),
+      peaked(algorithm.phase.kind > PhaseKind::rayleigh),
       one_albedo(true),
       emits(algorithm.emission != glm::vec3(0) || algorithm.sources),
       sources(algorithm.sources ? tile_view.floats(algorithm.sources) : nullptr),
@@ -134,11 +135,11 @@ HWY_INLINE Local March::local(const Real3& p, bool all) const {
 }
 
 // Light number k, scattered in the step [from, to] or in a lit part of one, where the medium is `here`: behind `before_it`.
-// Nothing where to <= from. Beside a lamp, where light and phase function change much within a step, in parts that look up the
-// medium anew.
+// Nothing where to <= from. Beside a lamp, where light and the medium or a peak of the phase function change much within a step,
+// in parts that look up the medium anew.
 HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_it, const Local& here) {
   Real s = 0.0, c = 1.0, sine = 0.0, cosine = 1.0, parts = 1.0, foot = 0.0, h = 1.0;
-  if (uneven && !a.lights[k].directional) {
+  if ((uneven || peaked) && !a.lights[k].directional) {
     const float* of_light = scratch + static_cast<std::ptrdiff_t>(k) * floats_a_light;
     foot = load(of_light + foot_at), h = load(of_light + h_at);
     const Real before = from - foot, after = to - foot;
@@ -162,7 +163,7 @@ HWY_INLINE void March::add_light(std::size_t k, Real from, Real to, Real before_
     Local there = here;
     if (in_parts) {
       const Mask whole = parts <= 1.0;
-      there = local(along({0.0, 0.0, 0.0}, d, (begin + end) * 0.5), true);
+      there = local(along({0.0, 0.0, 0.0}, d, (begin + end) * 0.5), uneven);
       there.extinction = select(whole, here.extinction, there.extinction);
       for (int i3 = 0; i3 < 3; ++i3) there.scattering[i3] = select(whole, here.scattering[i3], there.scattering[i3]);
     }
@@ -223,7 +224,8 @@ HWY_NOINLINE void March::add_part(std::size_t k, Real from, Real to, Real before
   }
 }
 
-// From `begin` to `end` in a.steps; all: with Gaussians and grid. Rays for which end <= begin stand still.
+// From `begin` to `end` in a.steps, which grow as if the medium were everywhere as dense as at `begin`; all: with Gaussians and
+// grid. Rays for which end <= begin stand still.
 HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
   const Mask marching = !ended() && (begin < end);
   if (!any_lane(marching)) return;
@@ -235,6 +237,8 @@ HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
   const bool whole = static_cast<bool>(a.optical_depth);  // it is wanted also behind where the ray ends
   const Real length = select(marching, all ? end - begin : min(end - begin, deepest() / max(Real(a.extinction), 1e-30F)), 0.0);
   const float n = static_cast<float>(a.steps);
+  const Real steep = local(along({0.0, 0.0, 0.0}, d, begin), all).extinction;
+  const bool even = !any_lane(steep * length >= 0.02);  // as graded_step() has it: the same bits
   Real from = begin;
   follows = false;
   uneven = all;
@@ -242,7 +246,7 @@ HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
     going = marching && !ended();
     if (!any_lane(going) && !(whole && all)) break;
     const float next = static_cast<float>(k + 1);
-    const Real to = begin + (all ? length * (next / n) : graded_step(next, n, length, a.extinction));
+    const Real to = begin + (even ? length * (next / n) : graded_step(next, n, length, steep));
     const Real size = max(to - from, 0.0);
     const Local here = local(along({0.0, 0.0, 0.0}, d, (from + to) * 0.5), all);
     const Real tau = here.extinction * size;

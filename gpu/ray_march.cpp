@@ -37,7 +37,8 @@ void run(const RayMarch& a, StepRunner& r, const Progress& progress) {
   const auto all_lights = static_cast<int>(a.lights.size());
   const std::int64_t most = shadowed ? LoopBudget::most / 2 : LoopBudget::most;
   const bool lamps = std::any_of(a.lights.begin(), a.lights.end(), [](const Light& light) { return !light.directional; });
-  const int most_parts = lamps && (a.grid || !a.gaussians.empty()) ? 8 : 1;  // step_parts()
+  const bool cuts = a.grid || !a.gaussians.empty() || a.phase.kind > PhaseKind::rayleigh;
+  const int most_parts = lamps && cuts ? 8 : 1;  // step_parts()
   const LoopBudget budget =
       loop_budget(a.gaussians, a.grid, a.light_steps, a.light_depth, shadowed ? 1 : a.lights.size(), most, most_parts);
   const std::int64_t a_step = 2 + static_cast<std::int64_t>(a.gaussians.size()) + (a.sources ? 4 : 0) +

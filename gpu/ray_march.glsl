@@ -95,6 +95,7 @@ Local local_at(vec3 p, bool all) {
 }
 
 bool uneven;  // this stretch has Gaussians and grid
+bool peaked;  // the phase function has a peak
 
 // A part of a step, or all of it: of optical depth tau, behind `before_it`.
 void add_part(int k, float from, float to, float before_it, float tau, Local here) {
@@ -151,7 +152,7 @@ void add_light(int k, float from, float to, float before_it, Local here) {
   float cosine;
   float foot;
   float h;
-  if (uneven && light_values[2 * k + 1].w == 0.0) {
+  if ((uneven || peaked) && light_values[2 * k + 1].w == 0.0) {
     beside_ray(light_values[2 * k], d, foot, h);
     float before = from - foot;
     float after = to - foot;
@@ -171,7 +172,7 @@ void add_light(int k, float from, float to, float before_it, Local here) {
     Local there = here;
     if (parts > 1.0) {
       if (float(part + 1) < parts) end = end_of_part(sine, cosine, s, c, begin, to, foot, h, s, c);
-      there = local_at(d * ((begin + end) * 0.5), true);
+      there = local_at(d * ((begin + end) * 0.5), uneven);
     }
     float tau = there.extinction * (end - begin);
     if (part >= first_part) add_part(k, begin, end, before_it, tau, there);
@@ -196,7 +197,8 @@ void add_lights(float from, float to, Local here) {
 #endif
 }
 
-// From `begin` to `end`, the steps from number `base` on; all: with Gaussians and grid. Nothing where end <= begin.
+// From `begin` to `end`, the steps from number `base` on, which grow as cpu/ray_march.cpp tells; all: with Gaussians and grid. Nothing
+// where end <= begin.
 void stretch(int base, float begin, float end, bool all) {
   bool marching = !ended() && begin < end;
   if (!marching) return;
@@ -210,13 +212,14 @@ void stretch(int base, float begin, float end, bool all) {
   int first = max(first_step - base, 0);
   int last = min(end_step - base, steps);
   float before = float(first);
+  float steep = local_at(d * begin, all).extinction;
   uneven = all;
-  float from = begin + (all ? length * (before / n) : graded_step(before, n, length, extinction));
+  float from = begin + graded_step(before, n, length, steep);
   for (int k = first; k < last; ++k) {
     bool going = !ended();
     if (!going && !(whole && all)) break;
     float next = float(k + 1);
-    float to = begin + (all ? length * (next / n) : graded_step(next, n, length, extinction));
+    float to = begin + graded_step(next, n, length, steep);
     float size = max(to - from, 0.0);
     Local here = local_at(d * ((from + to) * 0.5), all);
     float tau = here.extinction * size;
@@ -243,6 +246,7 @@ void main() {
   float length = ray_length(texelFetch(distance_image, at, 0).x, ambient_sky_distance.w);
   if (store_no_airlight(at, length, first_light, end_light)) return;
   float end = min(length, 1e15);
+  peaked = phase_kind > 1;
   d = pixel_ray(pixel);
   most = radiance_bound(phase_kind, emission_g, albedo_extinction.w, d);
 #ifdef WITH_SOURCES

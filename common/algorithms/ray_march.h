@@ -11,8 +11,8 @@ namespace airlight {
 
 // Marches each pixel's ray through the medium from front to back: transmittance, light scattered once, ambient and emitted light.
 // With shadow volumes, of each step and light only the parts count that the light reaches, cut where the ray crosses a plane.
-// Where only the homogeneous part is, steps grow with 1 + optical depth; from where the ray enters Gaussians and grid to where it
-// leaves them, they are of equal length. Each stretch in front, inside and behind takes `steps`; one that is empty costs nothing.
+// Each stretch in front of where the ray enters Gaussians and grid, inside and behind takes `steps`; one that is empty costs nothing.
+// They grow with 1 + the optical depth that there would be were it everywhere as dense as where the stretch begins (graded_step()).
 struct RayMarch {
   Image distance;              // r32f [m], 1e30 on a miss
   Buffer voxels;               // extinctions of the grid (common/algorithms/voxel_table.h); with a grid

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "common/plan/geometry.h"
 
@@ -25,6 +28,25 @@ double longest_view(const Scene& scene) {
     }
   }
   return farthest;
+}
+
+// [1/m] Of the whole medium; a grid's is that of the cell.
+double extinction_at_camera(const Scene& scene) {
+  double sum = scene.medium.extinction;
+  for (const Gaussian& g : scene.medium.gaussians) {
+    const double distance = glm::distance(g.center, scene.camera.position) / g.radius;
+    sum += g.extinction * std::exp(-distance * distance);
+  }
+  if (const std::optional<GridMedium>& grid = scene.medium.grid) {
+    const glm::dvec3 place(glm::inverse(grid->transform) * glm::dvec4(scene.camera.position, 1.0));
+    const glm::dvec3 size(grid->voxels->size);
+    if (glm::all(glm::greaterThanEqual(place, glm::dvec3(0))) && glm::all(glm::lessThan(place, size))) {
+      const glm::dvec3 cell = glm::floor(place);
+      sum += grid->scale *
+             static_cast<double>(grid->voxels->values[static_cast<std::size_t>(cell.x + size.x * (cell.y + size.y * cell.z))]);
+    }
+  }
+  return sum;
 }
 
 double farthest_lamp(const Scene& scene) {
@@ -74,13 +96,15 @@ double left_by_steps(const Scene& scene, double n) {
   const bool isotropic = medium.phase.kind == PhaseKind::isotropic || medium.phase.kind == PhaseKind::rayleigh;
   double error = 3e-5;
   if (!isotropic && lamps && !medium.empty()) error += 0.4 / n;
-  if (medium.extinction > 0) {
-    const double view = longest_view(scene), lamp = std::min(farthest_lamp(scene), view);
-    const double tau = std::min(medium.extinction * view, 80.0);
-    const double x = (1 + medium.extinction * lamp) * std::log1p(tau) / n;
+  const UnevenPart gaussians = gaussians_part(scene), grid = grid_part(scene);
+  if (const double extinction = extinction_at_camera(scene); extinction > 0) {
+    double view = longest_view(scene);
+    if (!(medium.extinction > 0)) view = std::min(view, std::max(gaussians.length, grid.length));
+    const double tau = std::min(extinction * view, 80.0);
+    const double x = (1 + extinction * std::min(farthest_lamp(scene), view)) * std::log1p(tau) / n;
     error += 0.25 * x * x;
   }
-  return error + gaussians_part(scene).left_by(n) + grid_part(scene).left_by(n);
+  return error + gaussians.left_by(n) + grid.left_by(n);
 }
 
 }  // namespace airlight

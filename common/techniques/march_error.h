@@ -20,7 +20,8 @@ UnevenPart grid_part(const Scene&);
 
 // Relative error of n steps in each stretch of medium; how steps lie to lamps decides, so its numbers are fitted to the sweeps of
 // docs/RESULTS.md by a factor of up to ten on the safe side:
-// * homogeneous: 0.25 x^2, x the largest optical depth of a step before the farthest lamp (graded_step()),
+// * 0.25 x^2, x the largest optical depth of a step before the farthest lamp (graded_step()), were it everywhere as dense as at the
+//   camera,
 // * an anisotropic phase function near a lamp: 0.4 / steps, its covariance with the fade in the one step that holds the lamp,
 // * Gaussians and grid: UnevenPart.
 double left_by_steps(const Scene&, double n);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <glm/ext/matrix_transform.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "tests/tolerances.h"
 #include "tests/truth/gaussian_scenes.h"
 #include "tests/truth/relative_error.h"
+#include "tests/truth/scenes.h"
 #include "tests/truth/shadow_scenes.h"
 #include "tests/truth/truth_scenes.h"
 
@@ -134,6 +136,45 @@ std::vector<TruthScene> marching_scenes() {
 
 INSTANTIATE_TEST_SUITE_P(Truth, Marching, testing::ValuesIn(marching_scenes()),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// The camera stands in what hides nearly all that is behind: of a long way through the medium only the first metres are seen, and
+// lamps there.
+Scene about_the_camera(std::string_view what) {
+  Scene scene = foggy_scene(what == "fog" || what == "wide_in_fog" ? 0.06 : 0);
+  scene.camera = {.position = {0, 0, 0}, .look_at = {0, 0, -1}, .vertical_fov = 50};
+  scene.medium.phase = {PhaseKind::henyey_greenstein, scene.medium.extinction > 0 ? 0.9 : 0.6};
+  scene.lights = {point_light({0.5, 0.7, -3}, {10, 9, 8}), point_light({-1, 0.2, 2}, {8, 9, 10})};
+  if (what == "gaussian") {
+    scene.medium.gaussians = {{.center = {0, 0, -5}, .radius = 20, .extinction = 1, .albedo = {0.9, 0.8, 0.7}}};
+  } else if (what == "wide_in_fog") {
+    scene.medium.gaussians = {{.center = {300, 0, -900}, .radius = 1000, .extinction = 0.002}};
+  } else if (what == "grid") {
+    VoxelGrid cells{{6, 5, 5}, {}};
+    for (int i = 0; i < 150; ++i) cells.values.push_back(i % 2 == 0 ? 1.0F : 0.8F);
+    GridMedium grid;
+    grid.transform = glm::translate(glm::dmat4(1), {-30, -22, -40}) * glm::scale(glm::dmat4(1), glm::dvec3(10));
+    grid.voxels = std::make_shared<const VoxelGrid>(std::move(cells));
+    scene.medium.grid = grid;
+  }
+  return scene;
+}
+
+class AboutTheCamera : public testing::TestWithParam<const char*> {};
+
+TEST_P(AboutTheCamera, IsSeenAsItIs) {
+  const Scene scene = about_the_camera(GetParam());
+  const ReferenceFrame truth = truth_of(scene, few_pixels);
+  for (const char* technique : {"marching", "opacity-propagation"}) {
+    std::printf("%s\n", technique);
+    RenderSettings settings;
+    settings.technique = technique;
+    const std::string_view bound = technique == std::string_view("marching") ? "truth_marching" : "truth_propagation";
+    hold(scene, few_pixels, settings, truth, {bound, bound, bound, bound}, 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Truth, AboutTheCamera, testing::Values("fog", "gaussian", "wide_in_fog", "grid"),
+                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
 }  // namespace airlight
