@@ -76,10 +76,12 @@ double around(double gamma, double phi, double exponent) {
 double indirect_lobe(const Phase& phase, bool directional, double lambda, double phi, double exponent) {
   const double width = std::acos(std::exp(-35 / std::max(exponent, 1e-9)));
   const double low = std::max(0.0, phi - width), high = std::min(pi, phi + width), kink = std::fabs(pi / 2 - phi);
+  const double back = phase.g < 0 ? pi - 0.05 : low;  // a peak there, as there may be one ahead
   const std::vector<double> breaks =
       exponent == 1
-          ? sorted({kink, pi - kink, kink + 0.05, 0.05}, low, high)
-          : sorted({kink, pi - kink, phi, phi - width / 3, phi + width / 3, phi - width / 10, phi + width / 10, 0.05}, low, high);
+          ? sorted({kink, pi - kink, kink + 0.05, 0.05, back}, low, high)
+          : sorted({kink, pi - kink, phi, phi - width / 3, phi + width / 3, phi - width / 10, phi + width / 10, 0.05, back}, low,
+                   high);
   return sum_over(breaks, [&](double gamma) {
     const double lobe = around(gamma, phi, exponent);
     if (lobe == 0) return 0.0;

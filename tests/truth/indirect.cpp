@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/reference/indirect.h"
 #include "common/reference/reference.h"
 #include "common/relative_rmse.h"
 #include "tests/tolerances.h"
@@ -44,7 +45,7 @@ TEST(ExactIndirect, IsTheUnboundedOneInAnOpenHalfSpace) {
   Material glossy = diffuse(0.5F, 0.4F, 0.3F);
   glossy.specular = glm::vec3(0.3F), glossy.shininess = 60;
   double worst = 0;
-  for (const Phase& phase : {Phase{}, Phase{PhaseKind::henyey_greenstein, 0.6}}) {
+  for (const Phase& phase : {Phase{}, Phase{PhaseKind::henyey_greenstein, 0.6}, Phase{PhaseKind::henyey_greenstein, -0.95}}) {
     // A radius of the lamp is what the unbounded model does not know: here it is next to nothing.
     for (const LightSource& light :
          {point_light({0.9, 1.7, -0.5}, {10, 9, 8}, 1e-9), directional_light({0.3, -1, 0.2}, {1, 2, 3})}) {
@@ -74,6 +75,26 @@ TEST(ExactIndirect, NothingComesThroughTheFloor) {
   };
   EXPECT_GT(of(Indirect::unbounded), 0);
   EXPECT_LT(of(Indirect::exact), 1e-9 * of(Indirect::unbounded));
+}
+
+// Light that scatters back arrives as light that scatters forward does of a sun that shines the other way.
+TEST(IndirectLobe, TurnsWithThePhaseFunction) {
+  double worst = 0;
+  for (const PhaseKind kind : {PhaseKind::henyey_greenstein, PhaseKind::cornette_shanks}) {
+    for (const double g : {0.3, 0.9, 0.99}) {
+      for (const double exponent : {1.0, 30.0, 1000.0}) {
+        double top = 0, apart = 0;
+        for (const double phi : {0.0, 0.01, 0.3, 1.3, pi / 2, 1.8, 2.9, pi}) {
+          const double forward = indirect_lobe({kind, g}, true, 0, phi, exponent);
+          top = std::max(top, forward);
+          apart = std::max(apart, std::fabs(indirect_lobe({kind, -g}, true, 0, pi - phi, exponent) - forward));
+        }
+        worst = std::max(worst, apart / top);
+      }
+    }
+  }
+  std::printf("beside the largest at most %.2g\n", worst);
+  EXPECT_FALSE(!(worst <= tolerance("indirect_open")));
 }
 
 // The van der Corput sequence: i-th number of the low-discrepancy sequence in a base.
