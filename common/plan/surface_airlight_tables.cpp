@@ -141,18 +141,20 @@ Weights phong_weights(double phi, double shininess) {
   return weights;
 }
 
-void fill(std::span<float> table, Rays& rays, double w, Weights (*weights_at)(double phi, double shininess), double shininess) {
+void fill(std::span<float> table, Rays& rays, bool back, double w, Weights (*weights_at)(double phi, double shininess),
+          double shininess) {
+  constexpr std::size_t half = m * (n + 1);
   const double last = static_cast<double>(n - 1), last_angle = static_cast<double>(m - 1);
   table[0] = static_cast<float>(n);
   table[1] = static_cast<float>(w);
   table[2] = static_cast<float>(m);
-  table[3] = 0;
+  table[3] = back ? static_cast<float>(4 + half) : 0;
   w = static_cast<double>(table[1]);
-  std::vector<Weights> weights;
+  std::vector<Weights> weights;  // of the angles from the light, then of those from the direction away from it
   std::vector<double> flatten;
-  for (std::size_t j = 0; j < m; ++j) {
-    const double y = static_cast<double>(j) / last_angle, s = w * y / (1 + w - y);
-    weights.push_back(weights_at(2 * std::asin(std::min(s, 1.0)), shininess));
+  for (std::size_t j = 0; j < (back ? 2 * m : m); ++j) {
+    const double y = static_cast<double>(j % m) / last_angle, s = w * y / (1 + w - y), angle = 2 * std::asin(std::min(s, 1.0));
+    weights.push_back(weights_at(j < m ? angle : pi - angle, shininess));
     flatten.push_back((s + w) / (1 + w));
   }
   const double top = std::pow(100.0 / 130.0, 0.25);
@@ -163,13 +165,13 @@ void fill(std::span<float> table, Rays& rays, double w, Weights (*weights_at)(do
       lambda = 30 * q / (1 - q);
       rays.prepare(lambda);
     }
-    for (std::size_t j = 0; j < m; ++j) {
+    for (std::size_t j = 0; j < weights.size(); ++j) {
       double sum = 0;
       for (std::size_t k = 0; k < weights[j].gamma.size(); ++k) {
         const double gamma = weights[j].gamma[k];
         sum += weights[j].weight[k] * (i < n ? rays.point(gamma) : rays.directional(gamma));
       }
-      table[4 + i * m + j] = static_cast<float>(sum * flatten[j] * (1 + lambda));
+      table[4 + j / m * half + i * m + j % m] = static_cast<float>(sum * flatten[j] * (1 + lambda));
     }
   }
 }
@@ -193,15 +195,17 @@ void find_shininess(const std::vector<Material>& materials, std::vector<float>& 
 
 std::vector<float> surface_airlight_tables(Phase phase, const std::vector<float>& shininess) {
   Rays rays(phase);
+  const bool back = f64::phase_value(static_cast<int>(phase.kind), phase.g, -1.0) >
+                    f64::phase_value(static_cast<int>(phase.kind), phase.g, 1.0);
   std::vector<float> tables(surface_airlight_floats * (1 + shininess.size()));
   const auto table = [&](std::size_t k) {
     return std::span(tables).subspan(k * surface_airlight_floats, surface_airlight_floats);
   };
   fill(
-      table(0), rays, 1, [](double phi, double) { return lambert_weights(phi); }, 0);
+      table(0), rays, back, 1, [](double phi, double) { return lambert_weights(phi); }, 0);
   for (std::size_t k = 0; k < shininess.size(); ++k) {
     const auto exponent = static_cast<double>(shininess[k]);
-    fill(table(k + 1), rays, std::clamp(2.5 / std::sqrt(exponent + 1), 0.35, 1.0), phong_weights, exponent);
+    fill(table(k + 1), rays, back, std::clamp(2.5 / std::sqrt(exponent + 1), 0.35, 1.0), phong_weights, exponent);
   }
   return tables;
 }

@@ -10,7 +10,8 @@ namespace airlight {
 
 constexpr int surface_airlight_depths = 48, surface_airlight_angles = 128;  // nodes of the two axes
 constexpr std::size_t surface_airlight_floats =
-    4 + static_cast<std::size_t>(surface_airlight_angles) * (surface_airlight_depths + 1);  // a table
+    4 + 2 * static_cast<std::size_t>(surface_airlight_angles) *
+            (surface_airlight_depths + 1);  // a table; half is unused without light that scatters back
 
 // Exponents of the materials that reflect specularly, each once, ascending.
 std::vector<float> shininess_of(const std::vector<Material>&);

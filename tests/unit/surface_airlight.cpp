@@ -118,6 +118,7 @@ TEST(SurfaceAirlight, OtherPhaseFunctionsAgreeWithQuadrature) {
                           {PhaseKind::rayleigh, 0},
                           {PhaseKind::henyey_greenstein, 0.6},
                           {PhaseKind::cornette_shanks, -0.4},
+                          {PhaseKind::henyey_greenstein, -0.8},
                           {PhaseKind::mie_hazy, 0}};
   for (const Phase& phase : phases) {
     const std::vector<float> exponents{1, 20, 1000}, tables = surface_airlight_tables(phase, exponents);
@@ -127,7 +128,7 @@ TEST(SurfaceAirlight, OtherPhaseFunctionsAgreeWithQuadrature) {
       for (const bool directional : {false, true}) {
         const BySphere sphere(phase, lambda, directional);
         for (std::size_t k = 0; k <= exponents.size(); ++k) {
-          const double phi = 0.05 + 2.6 * uniform(62, i * 7 + static_cast<std::uint32_t>(k));
+          const double phi = 0.05 + 3.04 * uniform(62, i * 7 + static_cast<std::uint32_t>(k));
           const double n = k == 0 ? -1 : static_cast<double>(exponents[k - 1]);
           const float* table = tables.data() + surface_airlight_floats * k;
           const double truth = sphere.over(phi, n);
@@ -138,6 +139,31 @@ TEST(SurfaceAirlight, OtherPhaseFunctionsAgreeWithQuadrature) {
       }
     }
     std::printf("phase %d, g %.1f: relative error at most %.2g\n", static_cast<int>(phase.kind), phase.g, worst);
+    EXPECT_FALSE(!(worst <= tolerance("surface_airlight_quadrature")));
+  }
+}
+
+// Of lobes that look away from the light, where what scatters back arrives from a small spot.
+TEST(SurfaceAirlight, LobesSeeWhatScattersBack) {
+  const std::vector<float> exponents{20, 1000, 10000};
+  for (const double g : {-0.5, -0.9}) {
+    const Phase phase{PhaseKind::henyey_greenstein, g};
+    const std::vector<float> tables = surface_airlight_tables(phase, exponents);
+    double worst = 0;
+    for (std::size_t k = 0; k < exponents.size(); ++k) {
+      const auto n = static_cast<double>(exponents[k]);
+      const float* table = tables.data() + surface_airlight_floats * (k + 1);
+      for (const double lambda : {0.03, 0.4, 5.0}) {
+        for (const double behind : {0.0, 0.003, 0.02, 0.1, 0.4, 1.2}) {
+          const double phi = pi - behind, s = std::sin(phi / 2);
+          const double point = f64::surface_airlight_point(table, lambda, s) / lobe_norm(n);
+          const double sun = f64::surface_airlight_directional(table, s) / lobe_norm(n);
+          worst = std::max(worst, std::fabs(point / indirect_lobe(phase, false, lambda, phi, n) - 1));
+          worst = std::max(worst, std::fabs(sun / indirect_lobe(phase, true, lambda, phi, n) - 1));
+        }
+      }
+    }
+    std::printf("g %.1f: relative error at most %.2g\n", g, worst);
     EXPECT_FALSE(!(worst <= tolerance("surface_airlight_quadrature")));
   }
 }

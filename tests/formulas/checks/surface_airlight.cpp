@@ -81,6 +81,20 @@ Measured measure_directional(const Run& run) {
       });
     }
   }
+  // What scatters back arrives at s as what scatters forward does at the cosine of that half angle.
+  const std::vector<float> ahead = surface_airlight_tables({PhaseKind::henyey_greenstein, 0.9}, {20, 300});
+  const std::vector<float> back = surface_airlight_tables({PhaseKind::henyey_greenstein, -0.9}, {20, 300});
+  Columns turned;
+  for (std::size_t i = 0; i < in[0].size(); ++i) add_call(turned, in[0][i], std::sqrt((1 - in[1][i]) * (1 + in[1][i])));
+  for (const std::size_t which : {1U, 2U}) {
+    const Columns truth = run({Formula::surface_airlight, turned, {}, table_of(ahead, which)});
+    const Columns found = run({Formula::surface_airlight, in, {}, table_of(back, which)});
+    for (std::size_t i = 0; i < in[0].size(); ++i) {
+      m.add(relative_error(found[1][i], truth[1][i]), [&] {
+        return place({{"table", static_cast<double>(which)}, {"s", in[1][i]}, {"truth", truth[1][i]}, {"found", found[1][i]}});
+      });
+    }
+  }
   return m;
 }
 
