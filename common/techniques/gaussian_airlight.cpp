@@ -5,6 +5,7 @@
 
 #include "common/plan/gaussian_bins.h"
 #include "common/plan/gaussian_light_volumes.h"
+#include "common/plan/gaussian_panels.h"
 #include "common/plan/gaussian_shadows.h"
 #include "common/plan/projected_gaussians.h"
 #include "common/plan/ray_noise.h"
@@ -64,6 +65,8 @@ Plan plan(const Scene& given, const FrameRequest& request) {
     step.samples = static_cast<int>(request.knobs.number("samples"));
     step.erf = erf;
     step.noise = noise;
+    if (!met.empty() && !shines(step))
+      frame.plan.skips.push_back({Rule::no_nodes, "nodes along the view rays", "nothing on them is lit or glows"});
     frame.plan.steps.push_back({step, "light scattered once along the view ray"});
     sample_airlight(frame, samples_id);  // section 5.4
   }
@@ -82,9 +85,6 @@ Plan plan(const Scene& given, const FrameRequest& request) {
                                 toward_lights.depths.empty() ? "they may shade what is seen, and do nothing else"
                                                              : "they are in the volumes toward the lights, and nowhere else"});
   }
-  const auto glows = [](const GaussianDensity& g) { return g.emission != glm::vec3(0); };
-  if (!met.empty() && frame.lights.empty() && medium.emission == glm::dvec3(0) && std::none_of(met.begin(), met.end(), glows))
-    frame.plan.skips.push_back({Rule::no_nodes, "nodes along the view rays", "nothing on them is lit or glows"});
   if (!tables) frame.plan.skips.push_back({Rule::no_tables, "airlight tables", lamps ? "no homogeneous fog" : "no point light"});
   return frame.finish();
 }
