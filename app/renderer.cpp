@@ -86,16 +86,12 @@ Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Pro
   }
   Stats pass;
   backend.run(plan.steps, rows, pass, progress);
-  stats.seconds += pass.seconds;
   if (stats.steps.empty()) {
     describe_steps(plan, pass.steps);
-    stats.steps = std::move(pass.steps);
+    stats = std::move(pass);
     stats.skips = skips_of(plan);
   } else {
-    for (std::size_t i = 0; i < pass.steps.size(); ++i) {
-      stats.steps[i].seconds += pass.steps[i].seconds;
-      stats.steps[i].items += pass.steps[i].items;
-    }
+    add(stats, pass);
   }
   Images images;
   for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output, rows));
