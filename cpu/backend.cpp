@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -368,7 +369,21 @@ std::uint64_t CpuBackend::bytes_for(std::span<const Step> steps, Rows wanted) co
   for (const Step& step : steps) {
     for (const Buffer& made : buffers_made_by(step.what)) bytes += made.bytes;
   }
-  return bytes;
+  // A tile of each image that is not held, for each worker.
+  std::size_t scratch = 0;
+  for (const Group& group : m.groups) {
+    std::map<std::uint32_t, std::size_t> floats;
+    for (const std::size_t i : group.steps) {
+      each_made<Image>(steps[i].what, [&](const Image& image) {
+        floats[image.id] = static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
+      });
+    }
+    for (const HeldPart& part : m.held) floats.erase(part.image.id);
+    std::size_t sum = 0;
+    for (const auto& [id, of_image] : floats) sum += of_image;
+    scratch = std::max(scratch, sum);
+  }
+  return bytes + scratch * sizeof(float) * static_cast<std::size_t>(state_->workers.threads());
 }
 
 std::uint64_t CpuBackend::held_bytes() const { return state_->held_bytes(); }

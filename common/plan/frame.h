@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/brdf.h"
 #include "common/plan/geometry.h"
+#include "common/plan/hidden_environment.h"
 #include "common/plan/lean_scene.h"
 #include "common/plan/plan.h"
 #include "common/scene/scene.h"
@@ -108,6 +110,7 @@ class FramePlan {
   Image add_environment_indirect(Image scattered);
   Image mean_depth();
   Image add_environment();
+  std::function<HiddenSizes()> hiding_sizes() const;
   void expect_environment_shadows();
   void add_environment_shadows();
   Buffer add_brdfs();

@@ -31,6 +31,7 @@ struct Plan {
     Buffer buffer;
     std::uint64_t key = 0;                         // names the content
     std::function<std::vector<std::byte>()> make;  // called only when no backend holds it under this key
+    std::function<std::uint64_t()> most = {};      // [byte] that it makes at most, where `buffer` does not tell
   };
   struct Skip {
     Rule rule;

@@ -37,30 +37,33 @@ std::vector<float> as_floats(const std::vector<double>& values) { return {values
 Plan::Upload bins_upload(std::uint32_t id, const Gaussians& all, const View& view) {
   Hash key = hash_of("Gaussians of squares", all);
   key.add(view);
-  return {{{id}, 0}, key.value(), [all, view] {
+  return {{{id}, 0},
+          key.value(),
+          [all, view] {
             const std::vector<std::int32_t> bins = gaussian_bins(view, *all);
             const auto bytes = std::as_bytes(std::span(bins));
             return std::vector<std::byte>(bytes.begin(), bytes.end());
-          }};
+          },
+          [all, view] { return sizeof(std::int32_t) * count_gaussian_bins(view, *all); }};
 }
 
 // Of a place from which the Gaussians are seen.
 Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen) {
-  return table_upload({{id}, 0}, hash_of("depths from a place", seen).value(),
+  return table_upload({{id}, sizeof(float) * seen->size()}, hash_of("depths from a place", seen).value(),
                       [seen] { return as_floats(depths_to_centers(*seen).others); });
 }
 
 Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen, const glm::vec3& direction) {
   Hash key = hash_of("depths along a direction", seen);
   key.add(direction);
-  return table_upload({{id}, 0}, key.value(),
+  return table_upload({{id}, sizeof(float) * seen->size()}, key.value(),
                       [seen, direction] { return as_floats(depths_to_centers(*seen, direction).others); });
 }
 
 Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, const std::vector<Light>& lights) {
   Hash key = hash_of("depths from the lights to the camera", seen);
   for (const Light& light : lights) key.add(light.vector), key.add(light.directional);
-  return table_upload({{id}, 0}, key.value(), [seen, lights] {
+  return table_upload({{id}, sizeof(float) * lights.size()}, key.value(), [seen, lights] {
     std::vector<double> depths;
     depths.reserve(lights.size());
     for (const Light& light : lights)
