@@ -13,6 +13,7 @@
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/keys.h"
+#include "common/plan/light_slots.h"
 #include "common/plan/shadow_quads.h"
 #include "common/plan/upload.h"
 #include "common/reference/reference.h"
@@ -106,6 +107,7 @@ struct Renderer::State {
   std::unique_ptr<Backend> backend;
   std::shared_ptr<TransferMaker> transfer;
   std::uint64_t seen = 0;  // the camera and the technique of the last pass
+  LightSlots slots;        // and its lights
 
   int threads() const { return threads_of(options); }
 
@@ -119,7 +121,8 @@ struct Renderer::State {
   bool holds(Handle h, std::uint64_t key) const { return backend->holds(h, key); }
   // What is handed from step to step is kept from the second frame on in which the camera stands still; nothing runs for that
   // alone.
-  Plan plan(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows) const {
+  Plan plan(const Technique& technique, const Scene& scene, FrameRequest request, Rows rows) const {
+    request.light_slots = slots.after(scene.lights).numbers();
     Plan made = technique.plan(scene, request);
     const bool whole = within(rows, request.extent.height) == Rows{0, request.extent.height};  // bands are there to save memory
     if (whole && camera_key(technique, scene, request) == seen)
@@ -134,6 +137,7 @@ struct Renderer::State {
     if (technique.plan) {
       const Plan made = plan(technique, scene, request, rows);
       seen = camera_key(technique, scene, request);
+      slots = slots.after(scene.lights);
       images = run_plan(*backend, made, rows, stats, progress);
     } else {
       images = render_reference(scene, request, rows, threads(), stats, progress);

@@ -72,6 +72,10 @@ class FramePlan {
   Plan plan;
 
   bool has_surfaces() const { return !scene.surfaces.empty(); }
+  // What tells handles of the k-th of the lights from those of others: a light that goes out or away leaves these as they are.
+  std::uint32_t slot_of(std::size_t k) const {
+    return request.light_slots.empty() ? static_cast<std::uint32_t>(light_index[k]) : request.light_slots[light_index[k]];
+  }
   // An image of this frame's extent that is only handed on.
   Image handed_on(std::uint32_t id, Format format, int layers) const { return {{id}, format, request.extent, layers, false}; }
 

@@ -10,6 +10,7 @@
 #include "common/plan/depths_to_centers.h"
 #include "common/plan/gaussian_bins.h"
 #include "common/plan/hash.h"
+#include "common/plan/light_volumes.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/upload.h"
 
@@ -75,7 +76,7 @@ Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, con
 }  // namespace
 
 void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity>& gaussians, Erf erf, Buffer tables,
-                             Buffer volumes, std::uint32_t first_id) {
+                             Buffer volumes, std::uint32_t first_id, std::uint32_t light_id) {
   const Scene& scene = frame.scene;
   const auto refuse = [](const char* what) {
     throw InputError("setting light_path: published " + std::string(what) + ", or another light_path");
@@ -99,7 +100,7 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
   std::vector<Buffer> to_light;
   for (std::size_t k = 0; k < frame.lights.size(); ++k) {
     const LightSource& source = scene.lights[frame.light_index[k]];
-    const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(frame.light_index[k]);
+    const std::uint32_t id = light_id + light_ids * frame.slot_of(k);
     if (frame.lights[k].directional) {
       // Seen from a place that does not move with the camera, and is near for the sake of single precision.
       const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center));

@@ -27,7 +27,8 @@ enum : std::uint32_t {
   surfaces_id,
   injected_id = surfaces_id + 2,
   samples_id,
-  depths_id = samples_id + sampled_airlight_ids
+  projected_id = samples_id + sampled_airlight_ids,
+  depths_id = projected_id + projected_gaussians_ids
 };
 
 Plan plan(const Scene& given, const FrameRequest& request) {
@@ -53,8 +54,7 @@ Plan plan(const Scene& given, const FrameRequest& request) {
   const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   const LightVolumes toward_lights = add_gaussian_light_volumes(frame, gaussians, injected_id, depths_id);
   if (!gaussians.empty() && request.knobs.choice("light_path") == "published") {
-    const auto lights = static_cast<std::uint32_t>(scene.lights.size());
-    add_projected_gaussians(frame, gaussians, erf, tables, volumes, depths_id + lights);
+    add_projected_gaussians(frame, gaussians, erf, tables, volumes, projected_id, depths_id + 1);
   } else {
     auto step = frame.along_view_ray<GaussianAirlight>();
     step.tables = tables;

@@ -11,6 +11,7 @@
 
 #include "common/backend.h"
 #include "common/plan/frame_ids.h"
+#include "common/plan/light_slots.h"
 #include "common/techniques/technique.h"
 #include "common/transfer/transfer_maker.h"
 #include "cpu/backend.h"
@@ -87,6 +88,8 @@ class Replay {
     request.images.insert(work.settings.images.begin(), work.settings.images.end());
     request.knobs = KnobValues(t.knobs, work.settings.knobs);
     request.transfer = transfer_;
+    const LightSlots slots = slots_.after(work.scene.lights);
+    request.light_slots = slots.numbers();
     Plan plan;
     try {
       if (t.refuses(work.scene)) throw InputError("");
@@ -95,6 +98,7 @@ class Replay {
       EXPECT_THROW(warm_.render(work.scene, work.settings), InputError);
       return false;
     }
+    slots_ = slots;
     const Uploaded uploaded = make(plan);
     // The renderer keeps everything while the camera stands still.
     const Seen seen{work.settings.technique, work.scene.camera.position, work.scene.camera.look_at,
@@ -168,6 +172,7 @@ class Replay {
 
   RendererOptions options_;
   Seen seen_;
+  LightSlots slots_;
   Renderer warm_;
   std::shared_ptr<TransferMaker> transfer_;
   std::unique_ptr<Backend> cold_;
