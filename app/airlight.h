@@ -79,8 +79,9 @@ class Renderer {
   Frame render(const Scene&, const RenderSettings&);
 
   // Bands of settings.rows, from the top, the highest of which render() takes at most about so many bytes each: in images and the
-  // volumes that steps make, the frame's images among them; what the scene itself takes is not counted. Of 64 rows at least:
-  // where these take more it throws MachineError if `strictly`, and they are what is given else. Nothing is allocated.
+  // volumes that steps make, the frame's images among them, and in what the backend holds of the scene: meshes, shadow planes,
+  // grids, tables and lists. The scene itself is not counted. Of 64 rows at least: where these take more it throws MachineError
+  // if `strictly`, and they are what is given else. Nothing is uploaded.
   std::vector<Rows> bands_within(const Scene&, const RenderSettings&, std::uint64_t bytes, bool strictly) const;
 
   // What render() would run now, what it has kept from the frames before and what it leaves out, and why; many lines, ends with a

@@ -165,9 +165,10 @@ void add_device_flags(CLI::App& command, Flags& f) {
       .add_option("--gl-context", r.renderer.gl_context, "auto | osmesa | egl; auto is EGL where there is hardware, else OSMesa")
       ->capture_default_str();
   command.add_option("--gl-device", r.renderer.gl_device, "which EGL device")->check(CLI::Range(0, 1024))->capture_default_str();
-  command.add_option("--memory", f.memory,
-                     "512M, 4G: for images and volumes; a larger image is rendered and written band by band, the same bytes. "
-                     "Unless said 4G, and more where 64 rows take more");
+  command.add_option(
+      "--memory", f.memory,
+      "512M, 4G: for images, volumes, meshes and tables; a larger image is rendered and written band by band, the same bytes. "
+      "Unless said 4G, and more where 64 rows take more");
   r.renderer.transfer_files = true;
   command
       .add_flag(

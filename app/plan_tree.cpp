@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "common/plan/cost.h"
+#include "common/plan/step_skips.h"
 
 namespace airlight {
 
@@ -75,11 +76,12 @@ class Tree {
 
   std::string cost(const std::vector<int>& which) const {
     double seconds = 0, estimate = 0;
-    std::uint64_t items = 0, skipped = 0, bytes = 0;
+    std::uint64_t items = 0, left = 0, bytes = 0;
     std::size_t kept = 0, not_asked = 0;
     for (const int i : which) {
       const StepStats& s = step(i);
-      seconds += s.seconds, items += s.items, skipped += s.skipped, bytes += s.bytes;
+      seconds += s.seconds, items += s.items, bytes += s.bytes;
+      if (s.reused) left += s.skipped;
       kept += s.reused && s.asked, not_asked += !s.asked;
       if (!s.reused) estimate += s.estimate;
     }
@@ -93,8 +95,29 @@ class Tree {
       if (which.size() > 1 && kept > 0) text += ", " + std::to_string(kept) + " of them kept from the last frame";
     }
     if (measured_ && items > 0) text += ", " + std::to_string(items) + " items";
-    if (measured_ && skipped > 0) text += ", " + std::to_string(skipped) + " items skipped";
-    return not_asked == which.size() || bytes == 0 ? text : text + ", " + size_of(bytes);
+    if (measured_ && left > 0) text += ", " + std::to_string(left) + " items skipped";
+    if (not_asked != which.size() && bytes > 0) text += ", " + size_of(bytes);
+    return measured_ ? text + passed_over(which) : text;
+  }
+
+  // What those that ran skipped of their items, and of what else they work through, where that was counted.
+  std::string passed_over(const std::vector<int>& which) const {
+    std::uint64_t skipped = 0;
+    StepParts parts;
+    std::string_view why;
+    bool counted = false;
+    for (const int i : which) {
+      const StepStats& s = step(i);
+      if (!s.counted) continue;
+      counted = true;
+      skipped += s.skipped, why = s.why_skipped;
+      parts = {parts.all + s.parts.all, parts.skipped + s.parts.skipped, s.parts.name, s.parts.why};
+    }
+    if (!counted) return "";
+    std::string text = skipped > 0 ? "; " + std::to_string(skipped) + " items skipped: " + std::string(why) : "; no item skipped";
+    if (parts.name.empty() || parts.all == 0) return text;
+    text += "; " + std::to_string(parts.all) + " " + std::string(parts.name) + ", ";
+    return text + (parts.skipped > 0 ? std::to_string(parts.skipped) + " skipped: " + std::string(parts.why) : "none skipped");
   }
 
   // Steps of one name that are read under one name.
@@ -167,11 +190,29 @@ void describe_steps(const Plan& plan, std::vector<StepStats>& steps) {
     to.inputs = inputs.of(from, static_cast<int>(i));
     to.estimate = cost.seconds;
     to.bytes = cost.bytes;
+    const StepSkips in_words = step_skips(from.what);
+    to.why_skipped = in_words.items;
+    to.parts.name = in_words.parts, to.parts.why = in_words.why_parts;
     if (!to.reused) continue;
     to.skipped = cost.items;
     const std::vector<Image> images = outputs_of(from.what);
     to.asked = !buffers_made_by(from.what).empty() ||
                std::any_of(images.begin(), images.end(), [](const Image& image) { return image.keep; });
+  }
+}
+
+void add(Stats& all, const Stats& more) {
+  all.seconds += more.seconds;
+  for (std::size_t i = 0; i < std::min(all.steps.size(), more.steps.size()); ++i) {
+    StepStats& sum = all.steps[i];
+    const StepStats& step = more.steps[i];
+    sum.seconds += step.seconds;
+    sum.items += step.items;
+    sum.held = std::max(sum.held, step.held);
+    if (step.reused) continue;
+    sum.counted = sum.counted || step.counted;
+    sum.skipped += step.skipped;
+    sum.parts.all += step.parts.all, sum.parts.skipped += step.parts.skipped;
   }
 }
 

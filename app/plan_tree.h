@@ -12,6 +12,8 @@ namespace airlight {
 // Tells the statistics of a plan's steps all that the plan knows of them: reasons, inputs, estimates, bytes, and the items of
 // steps that do not run.
 void describe_steps(const Plan&, std::vector<StepStats>&);
+// Adds what another band or sample of a frame took to what those before it took.
+void add(Stats& all, const Stats& more);
 std::vector<SkipStats> skips_of(const Plan&);
 // The statistics of a frame that has not been rendered; `runs` as steps_to_run() tells.
 Stats planned_stats(const Plan&, const std::vector<bool>& runs);

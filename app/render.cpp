@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "app/command.h"
+#include "app/plan_tree.h"
 #include "app/sequence.h"
 #include "app/tile.h"
 #include "common/scene/gltf_scene.h"
@@ -58,11 +59,17 @@ std::string stats_json(const Frame& frame, const Times& times, const std::string
       residuals = fmt::format(", \"residuals\": [{}], \"left_out\": {}, \"converged\": {}", fmt::join(s.residuals, ", "),
                               std::isfinite(s.left_out) ? fmt::format("{}", s.left_out) : "null", s.converged);
     }
+    const bool known = s.reused || s.counted;
+    std::string skipped;
+    if (s.counted && s.skipped > 0) skipped += fmt::format(", \"why_skipped\": {}", quoted(s.why_skipped));
+    if (s.counted && !s.parts.name.empty())
+      skipped += fmt::format(", \"parts\": {{ \"name\": {}, \"all\": {}, \"skipped\": {}, \"why_skipped\": {} }}",
+                             quoted(s.parts.name), s.parts.all, s.parts.skipped, quoted(s.parts.why));
     steps += fmt::format(
         "{}\n    {{ \"name\": {}, \"why\": {}, \"inputs\": [{}], \"seconds\": {}, \"estimate\": {}, \"bytes\": {}, \"held\": {}, "
-        "\"items\": {}, \"skipped\": {}, \"reused\": {}{}{} }}",
+        "\"items\": {}, \"skipped\": {}, \"reused\": {}{}{}{} }}",
         steps.empty() ? "" : ",", quoted(s.name), quoted(s.why), fmt::join(inputs, ", "), s.seconds, s.estimate, s.bytes, s.held,
-        s.items, s.skipped, s.reused, residuals, note);
+        s.items, known ? fmt::format("{}", s.skipped) : "null", s.reused, skipped, residuals, note);
   }
   for (const SkipStats& s : frame.stats.skips) {
     skips += fmt::format("{}\n    {{ \"rule\": {}, \"what\": {}, \"why\": {} }}", skips.empty() ? "" : ",", quoted(s.rule),
@@ -91,17 +98,6 @@ std::uint64_t most_resident() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-// Adds what a band of a frame took to what those before it took.
-void add(Stats& all, const Stats& band) {
-  all.seconds += band.seconds;
-  for (std::size_t i = 0; i < std::min(all.steps.size(), band.steps.size()); ++i) {
-    StepStats &sum = all.steps[i], step = band.steps[i];
-    sum.seconds += step.seconds;
-    sum.items += step.items;
-    sum.held = std::max(sum.held, step.held);
-  }
 }
 
 void print_stats(const Frame& frame, const Times& times) {

@@ -13,7 +13,9 @@
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/keys.h"
+#include "common/plan/light_slots.h"
 #include "common/plan/shadow_quads.h"
+#include "common/plan/upload.h"
 #include "common/reference/reference.h"
 #include "common/spelling.h"
 #include "common/techniques/choose.h"
@@ -86,16 +88,12 @@ Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Pro
   }
   Stats pass;
   backend.run(plan.steps, rows, pass, progress);
-  stats.seconds += pass.seconds;
   if (stats.steps.empty()) {
     describe_steps(plan, pass.steps);
-    stats.steps = std::move(pass.steps);
+    stats = std::move(pass);
     stats.skips = skips_of(plan);
   } else {
-    for (std::size_t i = 0; i < pass.steps.size(); ++i) {
-      stats.steps[i].seconds += pass.steps[i].seconds;
-      stats.steps[i].items += pass.steps[i].items;
-    }
+    add(stats, pass);
   }
   Images images;
   for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output, rows));
@@ -109,6 +107,7 @@ struct Renderer::State {
   std::unique_ptr<Backend> backend;
   std::shared_ptr<TransferMaker> transfer;
   std::uint64_t seen = 0;  // the camera and the technique of the last pass
+  LightSlots slots;        // and its lights
 
   int threads() const { return threads_of(options); }
 
@@ -122,7 +121,8 @@ struct Renderer::State {
   bool holds(Handle h, std::uint64_t key) const { return backend->holds(h, key); }
   // What is handed from step to step is kept from the second frame on in which the camera stands still; nothing runs for that
   // alone.
-  Plan plan(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows) const {
+  Plan plan(const Technique& technique, const Scene& scene, FrameRequest request, Rows rows) const {
+    request.light_slots = slots.after(scene.lights).numbers();
     Plan made = technique.plan(scene, request);
     const bool whole = within(rows, request.extent.height) == Rows{0, request.extent.height};  // bands are there to save memory
     if (whole && camera_key(technique, scene, request) == seen)
@@ -137,6 +137,7 @@ struct Renderer::State {
     if (technique.plan) {
       const Plan made = plan(technique, scene, request, rows);
       seen = camera_key(technique, scene, request);
+      slots = slots.after(scene.lights);
       images = run_plan(*backend, made, rows, stats, progress);
     } else {
       images = render_reference(scene, request, rows, threads(), stats, progress);
@@ -230,10 +231,11 @@ std::vector<Rows> Renderer::bands_within(const Scene& scene, const RenderSetting
   const DefaultFloats mode;
   const RenderSettings settings = chosen_for_goal(scene, asked, state_->options).first;
   const Technique& technique = chosen_technique(scene, settings);
-  const FrameRequest request = request_for(technique, scene, settings);
-  const Plan plan = technique.plan ? technique.plan(scene, request) : Plan();
+  FrameRequest request = request_for(technique, scene, settings);
+  Plan plan = technique.plan ? technique.plan(scene, request) : Plan();
+  std::uint64_t uploads = bytes_of_uploads(plan);
   const auto bytes = [&](Rows rows) {
-    std::uint64_t sum = technique.plan ? state_->backend->bytes_for(plan.steps, rows) : 0;
+    std::uint64_t sum = technique.plan ? uploads + state_->backend->bytes_for(plan.steps, rows) : 0;
     // The frame's own; of several samples their sum in double as well.
     const std::uint64_t value = settings.supersample > 1 ? 2 * sizeof(float) + sizeof(double) : sizeof(float);
     for (const std::string& name : request.images) {
@@ -244,12 +246,29 @@ std::vector<Rows> Renderer::bands_within(const Scene& scene, const RenderSetting
   };
   const Rows all = within(settings.rows, request.extent.height);
   constexpr int side = 64;
+  // Before it refuses a scene it asks what surfaces hide of an environment, which takes long: there is less of that than bounded.
+  const auto asked_exactly = [&] {
+    if (!technique.plan || request.transfer || least_bytes_of_uploads(plan) > most) return false;
+    request.transfer = state_->transfer;
+    plan = technique.plan(scene, request);
+    const std::uint64_t bound = uploads;
+    uploads = bytes_of_uploads(plan);
+    return uploads < bound;
+  };
   int height = all.count();
   for (std::uint64_t count = 1; bytes({all.first, all.first + height}) > most; ++count) {
     if (height <= side) {
       if (!strictly) break;
+      if (asked_exactly()) {
+        height = all.count(), count = 0;
+        continue;
+      }
+      const auto in_mebibytes = [](std::uint64_t n) { return std::to_string((n >> 20U) + 1) + " MiB"; };
+      const std::uint64_t needed = bytes({all.first, all.first + height});
       throw MachineError("not enough memory is allowed: " + std::to_string(height) + " rows of this image take " +
-                         std::to_string((bytes({all.first, all.first + height}) >> 20U) + 1) + " MiB, expected at least that");
+                         in_mebibytes(needed) +
+                         (uploads > 0 ? ", of which the scene's meshes, grids and tables are " + in_mebibytes(uploads) : "") +
+                         ", expected at least that");
     }
     const auto share = static_cast<int>((static_cast<std::uint64_t>(all.count()) / (count + 1) + side - 1) / side * side);
     height = std::max(share, side);

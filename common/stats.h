@@ -13,6 +13,12 @@ struct StepInput {
   int step = -1;          // that makes it, by its place in the plan; -1: it is uploaded
 };
 
+// What a step works through to make its items, counted where it is passed over: triangles, for instance.
+struct StepParts {
+  std::uint64_t all = 0, skipped = 0;
+  std::string_view name = {}, why = {};  // plural; of those that are skipped
+};
+
 struct StepStats {
   std::string name;
   double seconds = 0;       // thread time summed over the workers on the CPU, wall time (glFinish) on GL
@@ -29,9 +35,14 @@ struct StepStats {
   std::string_view why = {};           // it is there
   std::vector<StepInput> inputs = {};  // in order of the fields
   std::uint64_t bytes = 0;             // of all that it makes
-  std::uint64_t skipped = 0;           // items that it left as they were
-  double estimate = 0;                 // [s] of thread time on the CPU, before it ran
-  bool asked = true;                   // else it was not run because nothing that ran reads it
+  // Items that it left as they were, or, of a step that ran, was done with before its work on them began. Of such a step
+  // counted where `counted`, as vectors and squares are passed over as a whole; unknown else.
+  std::uint64_t skipped = 0;
+  bool counted = false;
+  std::string_view why_skipped = {};  // of a step that ran; empty: it never passes over an item
+  StepParts parts = {};               // none: it passes over nothing else
+  double estimate = 0;                // [s] of thread time on the CPU, before it ran
+  bool asked = true;                  // else it was not run because nothing that ran reads it
 };
 
 // What the plan left out.

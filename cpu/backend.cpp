@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -33,6 +34,7 @@ struct Scratch {
   AlignedFloats floats;
   TileView view;
   std::vector<double> seconds;  // by step
+  std::vector<StepCounts> counts;
 };
 
 }  // namespace
@@ -75,26 +77,32 @@ struct CpuBackend::State {
   std::uint64_t held_bytes() const;
   void place_images(std::span<const Step>);
   template <class A>
-  void run_volume(const A&);
+  StepCounts run_volume(const A&);
   void run_group(const Group&, std::span<const Step>, std::span<StepStats>, Progress&);
-  void prepare(std::size_t index, const SurfaceVisibility&, Rows);
+  StepCounts prepare(std::size_t index, const SurfaceVisibility&, Rows);
   // ShadowPlanes, RayMarch, GaussianAirlight.
   template <class Shadowed>
   requires requires(const Shadowed& a) { a.volumes; }
-  void prepare(std::size_t index, const Shadowed& a, Rows rows) {
+  StepCounts prepare(std::size_t index, const Shadowed& a, Rows rows) {
     if (a.volumes) shadow_rasterisers[index].prepare(a.view, rows, a.lights.size(), buffer(a.volumes), simd, workers);
+    return {};
   }
-  void prepare(std::size_t index, const ParticleSplats& a, Rows) {
+  StepCounts prepare(std::size_t index, const ParticleSplats& a, Rows) {
     see_splats(a, buffer_of<float>(a.splats), buffer_of<float>(a.particle_sources), buffer_of<std::int32_t>(a.lines), workers,
                simd, splats[index]);
+    return {};
   }
   template <class PixelStep>
-  void prepare(std::size_t, const PixelStep&, Rows) {}
+  StepCounts prepare(std::size_t, const PixelStep&, Rows) {
+    return {};
+  }
 
   void run_tile(std::size_t index, const SurfaceVisibility& a, const TileView& view, int) {
     float* const corners[3] = {view.plane(a.corners, 0), view.plane(a.corners, 1), view.plane(a.corners, 2)};
-    rasterisers.at(index).run_tile(view.tile, view.plane(a.distance), view.plane(a.normal, 0), view.plane(a.normal, 1),
-                                   view.plane(a.normal, 2), view.plane(a.material), a.corners ? corners : nullptr);
+    const bool any =
+        rasterisers.at(index).run_tile(view.tile, view.plane(a.distance), view.plane(a.normal, 0), view.plane(a.normal, 1),
+                                       view.plane(a.normal, 2), view.plane(a.material), a.corners ? corners : nullptr);
+    if (!any) view.skip(view.in_image(0, 0, tile_side));
   }
   void run_tile(std::size_t index, const ShadowPlanes& a, const TileView& view, int worker) {
     shadow_rasterisers.at(index).run_tile(a, view, worker);
@@ -118,14 +126,16 @@ struct CpuBackend::State {
 
 // A step that makes buffers, and no image.
 template <class A>
-void CpuBackend::State::run_volume(const A& a) {
+StepCounts CpuBackend::State::run_volume(const A& a) {
   for (const Buffer& made : buffers_made_by(a)) {
     images.erase(made);  // another plan may have had an image under this handle
     HeldBuffer& held = buffers[made];
     held.bytes.resize(made.bytes);
     held.key = 0;
   }
-  if constexpr (A::domain == Domain::volume) airlight::run_volume(a, BufferView(buffers), workers, simd);
+  StepCounts counts;
+  if constexpr (A::domain == Domain::volume) airlight::run_volume(a, BufferView(buffers, counts), workers, simd);
+  return counts;
 }
 
 std::uint64_t CpuBackend::State::held_bytes() const {
@@ -156,17 +166,27 @@ void CpuBackend::State::place_images(std::span<const Step> steps) {
   }
 }
 
-void CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a, Rows rows) {
-  rasterisers[index].prepare(a, rows, buffer_of<float>(a.positions), buffer_of<float>(a.normals),
-                             buffer_of<std::uint32_t>(a.triangles), simd, workers);
+StepCounts CpuBackend::State::prepare(std::size_t index, const SurfaceVisibility& a, Rows rows) {
+  return rasterisers[index].prepare(a, rows, buffer_of<float>(a.positions), buffer_of<float>(a.normals),
+                                    buffer_of<std::uint32_t>(a.triangles), simd, workers);
 }
+
+namespace {
+
+void tell(const StepCounts& counts, StepStats& step) {
+  step.counted = true;
+  step.skipped += counts.skipped;
+  step.parts.all += counts.parts, step.parts.skipped += counts.skipped_parts;
+}
+
+}  // namespace
 
 void CpuBackend::State::run_group(const Group& group, std::span<const Step> steps, std::span<StepStats> stats,
                                   Progress& progress) {
   if (const Step& head = steps[group.steps[0]]; domain_of(head.what) == Domain::volume) {
     const Clock::time_point start = Clock::now();
-    std::visit([&](const auto& a) { run_volume(a); }, head.what);
     StepStats& step = stats[group.steps[0]];
+    tell(std::visit([&](const auto& a) { return run_volume(a); }, head.what), step);
     for (const Buffer& made : buffers_made_by(head.what)) step.items += made.bytes / sizeof(float);
     if (const auto* a = std::get_if<NetworkIteration>(&head.what)) a->tell(buffer_of<float>(a->residuals), step);
     step.seconds = seconds_since(start);
@@ -205,7 +225,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
             }
           });
           const Clock::time_point start = Clock::now();
-          prepare(i, a, group.rows.computed);
+          tell(prepare(i, a, group.rows.computed), stats[i]);
           stats[i].seconds += seconds_since(start);
         },
         steps[i].what);
@@ -213,6 +233,8 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
   for (Scratch& s : scratch) {
     s.floats.resize(scratch_floats);
     s.seconds.assign(steps.size(), 0.0);
+    s.counts.assign(steps.size(), {});
+    s.view.extent = group.extent;
     s.view.images.assign(last_id + 1, nullptr);
     s.view.others.assign(last_id + 1, nullptr);
     for (const Place& p : m.places) {
@@ -230,6 +252,7 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
     }
     for (const std::size_t i : group.steps) {
       const Clock::time_point start = Clock::now();
+      s.view.counts = &s.counts[i];
       std::visit([&](const auto& a) { run_tile(i, a, s.view, worker); }, steps[i].what);
       s.seconds[i] += seconds_since(start);
     }
@@ -237,7 +260,10 @@ void CpuBackend::State::run_group(const Group& group, std::span<const Step> step
   workers.each(tiling.count(), std::cref(one_tile));  // not copied, which would allocate
   threads_that_ran = std::max(threads_that_ran, workers.distinct_threads());
   for (const std::size_t i : group.steps) {
-    for (const Scratch& s : scratch) stats[i].seconds += s.seconds[i];
+    for (const Scratch& s : scratch) {
+      stats[i].seconds += s.seconds[i];
+      tell(s.counts[i], stats[i]);
+    }
     stats[i].items = static_cast<std::uint64_t>(group.extent.width) * static_cast<std::uint64_t>(group.rows.computed.count());
     stats[i].held = held_bytes();
   }
@@ -355,7 +381,21 @@ std::uint64_t CpuBackend::bytes_for(std::span<const Step> steps, Rows wanted) co
   for (const Step& step : steps) {
     for (const Buffer& made : buffers_made_by(step.what)) bytes += made.bytes;
   }
-  return bytes;
+  // A tile of each image that is not held, for each worker.
+  std::size_t scratch = 0;
+  for (const Group& group : m.groups) {
+    std::map<std::uint32_t, std::size_t> floats;
+    for (const std::size_t i : group.steps) {
+      each_made<Image>(steps[i].what, [&](const Image& image) {
+        floats[image.id] = static_cast<std::size_t>(image.layers * channels(image.format)) * tile_pixels;
+      });
+    }
+    for (const HeldPart& part : m.held) floats.erase(part.image.id);
+    std::size_t sum = 0;
+    for (const auto& [id, of_image] : floats) sum += of_image;
+    scratch = std::max(scratch, sum);
+  }
+  return bytes + scratch * sizeof(float) * static_cast<std::size_t>(state_->workers.threads());
 }
 
 std::uint64_t CpuBackend::held_bytes() const { return state_->held_bytes(); }

@@ -125,6 +125,14 @@ void run_volume(const DensityInjection& a, const BufferView& view, Workers& work
       floats += static_cast<std::size_t>(r.count + padding);
     }
   }
+  StepCounts& counts = view.counts;
+  counts.parts = injected.size() * static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) *
+                 static_cast<std::uint64_t>(size[2]);
+  counts.skipped_parts = counts.parts;
+  for (const Injected& g : injected) {
+    counts.skipped_parts -= static_cast<std::uint64_t>(g.reached[0].count) * static_cast<std::uint64_t>(g.reached[1].count) *
+                            static_cast<std::uint64_t>(g.reached[2].count);
+  }
   std::vector<float> share(floats);
   constexpr int batch = 64;
   const int all = static_cast<int>(injected.size());

@@ -39,6 +39,8 @@ static void environment_indirect(const EnvironmentIndirect& a, const TileView& v
         const Real albedo = fma(of_homogeneous, a.albedo[c], of_rest * a.gaussian_albedo[c]) * seen;
         sum[c] = select(hit, fma(m.diffuse[c], lobes.diffuse[c], m.specular[c] * lobes.specular[c]) * albedo, 0.0);
       }
+    } else {
+      view.skip(view.in_image(i, lanes));
     }
     for (int c = 0; c < 3; ++c) {
       if (a.scattered) sum[c] += load(view.plane(a.scattered, c) + i);

@@ -35,6 +35,7 @@ struct Scattering {
 
   int i = 0;  // the first pixel
   Mask mine;  // pixels of the square
+  int skipped_panels = 0;
   Real3 d;
   Real end, front, most, sum[3];  // front: optical depth of Gaussians so far; with shadow volumes, of those that are behind
 
@@ -72,6 +73,7 @@ HWY_INLINE Scattering::Scattering(const GaussianAirlight& algorithm, const TileV
 HWY_INLINE void Scattering::begin(int first, Mask of_square, Real length) {
   i = first;
   mine = of_square;
+  skipped_panels = 0;
   d = pixel_rays(a.view, view.tile, i);
   end = min(length, 1e15);
   front = 0.0;
@@ -251,7 +253,10 @@ HWY_INLINE void Scattering::panel(const GaussianPanels::Panel& p) {
   const Real from = p.begin, to = min(p.end, end);
   const Mask seen = !ray_ended(fma(from, a.extinction, front), most, max(max(sum[0], sum[1]), sum[2]));
   const Mask going = seen && (from < to);
-  if (!any_lane(going)) return;
+  if (!any_lane(going)) {
+    ++skipped_panels;
+    return;
+  }
   const Real last = select(going, to, from);
   const bool empty = p.active.begin == p.active.end;
   if (empty) closed_forms(p, from, last, going);
@@ -278,18 +283,27 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
   Scattering s(a, view, panels, rules, terms, scratch.resize(panels.met().size() * floats_a_gaussian), LitRays(lit, lit_scratch));
   const float* distance = view.plane(a.distance);
   const int first_column = x - x % lanes;
+  const bool any_met = !panels.met().empty();
+  StepCounts counts;
   for (int row = y; row < y + side; ++row) {
     for (int column = first_column; column < x + side; column += lanes) {
       const int i = row * tile_side + column;
       const Real across = first_lanes() + static_cast<double>(column - x);
       const Mask mine = across >= 0.0 && across < static_cast<double>(side);
       const Real length = select(mine, ray_length(load(distance + i), a.sky_distance), 0.0);
+      const int begin = std::max(column, x);
+      const auto pixels =
+          static_cast<std::uint64_t>(view.in_image(row * tile_side + begin, std::min(column + lanes, x + side) - begin));
       if (side >= lanes && !any_lane(length > 0.0)) {
         store_no_airlight(a, view, i);
+        counts.skipped += pixels;
         continue;
       }
       s.begin(i, mine, length);
       for (const GaussianPanels::Panel& p : panels.panels()) s.panel(p);
+      if (!any_met) counts.skipped += pixels;
+      counts.parts += panels.panels().size() * pixels;
+      counts.skipped_parts += static_cast<std::uint64_t>(s.skipped_panels) * pixels;
 
       Real tau = optical_depth(length, a.extinction);
       for (std::uint32_t met = 0; met < panels.met().size(); ++met) {
@@ -301,6 +315,7 @@ static void gaussian_airlight(const GaussianAirlight& a, const TileView& view, c
       if (a.optical_depth) s.put(min(tau, 1e30), view.plane(a.optical_depth));
     }
   }
+  view.counts->add(counts);
 }
 
 }  // namespace airlight::HWY_NAMESPACE

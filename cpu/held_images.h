@@ -71,10 +71,12 @@ struct HeldBuffer {
 // What a kernel that makes buffers sees of them.
 class BufferView {
  public:
-  explicit BufferView(std::map<Handle, HeldBuffer>& held) : held_(held) {}
+  BufferView(std::map<Handle, HeldBuffer>& held, StepCounts& step_counts) : counts(step_counts), held_(held) {}
   const float* floats(const Buffer& b) const { return made(b); }
   const std::int32_t* integers(const Buffer& b) const { return reinterpret_cast<const std::int32_t*>(made(b)); }
   float* made(const Buffer& b) const { return b ? reinterpret_cast<float*>(held_.at(b).bytes.data()) : nullptr; }
+
+  StepCounts& counts;  // to be told by one thread
 
  private:
   std::map<Handle, HeldBuffer>& held_;

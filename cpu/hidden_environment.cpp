@@ -75,6 +75,7 @@ static void hidden_environment(const HiddenEnvironment& a, const TileView& view)
     // Neighbouring pixels mostly see the same triangle: each different one is read once, for all lanes that see it.
     hn::Store(number, di, numbers);
     auto waiting = hn::Ne(number, hn::Zero(di));
+    if (hn::AllFalse(di, waiting)) view.skip(view.in_image(i, lanes));
     while (!hn::AllFalse(di, waiting)) {
       const std::int32_t first = numbers[hn::FindFirstTrue(di, waiting)];
       const auto same = hn::Eq(number, hn::Set(di, first));

@@ -19,6 +19,7 @@ static void light_march(const LightMarch& a, const TileView& view) {
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real depth = load(distance + i);
     const Mask hit = depth < 1e30;
+    if (!any_lane(hit)) view.skip(view.in_image(i, lanes));
     for (std::size_t k = 0; k < a.lights.size(); ++k) {
       Real through = 1.0, toward = 0.0;
       if (any_lane(hit)) {

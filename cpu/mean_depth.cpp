@@ -43,6 +43,8 @@ static void mean_depth(const MeanDepth& a, const TileView& view) {
       const Real length = select(hit, load(view.plane(a.distance) + i), 0.0);
       const Real3 place{d.x * length, d.y * length, d.z * length};
       depth = depths ? depth_in_lattices(a, depths, index, place) : gaussian_mean_depth(a.gaussians, place);
+    } else {
+      view.skip(view.in_image(i, lanes));
     }
     store(select(hit, depth, 0.0), view.plane(a.mean_depth) + i);
   }

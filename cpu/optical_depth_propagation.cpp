@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -85,7 +86,9 @@ struct LightRays {
 }  // namespace
 
 // Depths of one row of rays, sharpened along them: `line` has room for the nodes of a ray, a vector each.
-static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRow row, float* line, float* depths) {
+// Returns how many ways of its rays through Gaussians it passed over.
+static std::size_t ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRow row, float* line, float* depths) {
+  std::size_t passed = 0;
   const DepthVolume& v = a.volume;
   const int nx = static_cast<int>(v.nodes.x), ny = static_cast<int>(v.nodes.y), nz = static_cast<int>(v.nodes.z);
   const float step = 1 / v.scale.z;
@@ -106,7 +109,10 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
       perpendicular(rays.d.x, rays.d.y, rays.d.z, e.x, e.y, e.z, 0.0, foot, h);
       const Real begin = foot - g.reach, end = foot + g.reach;
       const Mask meets = (h < g.reach) && (end > 0.0);
-      if (!any_lane(meets)) continue;
+      if (!any_lane(meets)) {
+        passed += static_cast<std::size_t>(std::min(lanes, nx - i));
+        continue;
+      }
       const Real inverse = 1 / g.radius;
       const Real lateral = gaussian_lateral(inverse, h) * gaussian_whole(g.extinction, g.radius);
       const Real before = erf_(-foot * inverse);
@@ -158,6 +164,7 @@ static void ray_row(const OpticalDepthPropagation& a, const float* voxels, RayRo
       std::copy_n(line + k * lanes, count, depths + at + static_cast<std::size_t>(i));
     }
   }
+  return passed;
 }
 
 // Sharpens a plane of nodes along its own two axes. `scratch`: two planes and a row, each row of nx + most_lanes.
@@ -296,10 +303,13 @@ void run_volume(const OpticalDepthPropagation& a, const BufferView& view, Worker
   const std::size_t of_a_plane = static_cast<std::size_t>(nx + most_lanes) * static_cast<std::size_t>(2 * ny + 1);
   std::vector<std::vector<float>> scratch(static_cast<std::size_t>(workers.threads()));
   for (std::vector<float>& s : scratch) s.resize(std::max(of_a_ray, of_a_plane));
+  std::vector<std::size_t> passed(static_cast<std::size_t>(v.faces() * ny));
   workers.each(v.faces() * ny, [&](int n, int worker) {
-    entry(HWY_DISPATCH_TABLE(ray_row), simd)(a, voxels, RayRow{n / ny, n % ny}, scratch[static_cast<std::size_t>(worker)].data(),
-                                             out + 9);
+    passed[static_cast<std::size_t>(n)] = entry(HWY_DISPATCH_TABLE(ray_row), simd)(
+        a, voxels, RayRow{n / ny, n % ny}, scratch[static_cast<std::size_t>(worker)].data(), out + 9);
   });
+  view.counts.parts = passed.size() * static_cast<std::size_t>(nx) * a.gaussians.size();
+  view.counts.skipped_parts = std::accumulate(passed.begin(), passed.end(), std::size_t{0});
   workers.each(v.faces() * nz, [&](int n, int worker) {
     float* plane = out + 9 + static_cast<std::ptrdiff_t>(nx) * ny * n;
     entry(HWY_DISPATCH_TABLE(sharpen_plane), simd)(nx, ny, plane, scratch[static_cast<std::size_t>(worker)].data());

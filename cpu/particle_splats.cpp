@@ -179,6 +179,7 @@ void run_tile(const ParticleSplats& a, const TileView& view, std::span<const flo
       for (const std::int32_t number : std::span(bins + bins[square], bins + bins[square + 1])) {
         if (rays.meets(seen.data() + seen_fields * static_cast<std::size_t>(number))) met.push_back(number);
       }
+      if (met.empty()) view.skip(view.in_image(x, y, bin_side));
       entry(HWY_DISPATCH_TABLE(particle_splats), simd)(a, view, met, seen.data(), x, y);
     }
   }

@@ -167,6 +167,7 @@ void run_tile(const ProjectedGaussians& a, const TileView& view, Simd simd) {
       if (view.tile.x + x >= a.view.extent.width || view.tile.y + y >= a.view.extent.height) continue;  // never read
       const int square = (view.tile.y + y) / bin_side * bin_columns(a.view.extent) + (view.tile.x + x) / bin_side;
       const std::span<const std::int32_t> list(bins + bins[square], bins + bins[square + 1]);
+      if (list.empty()) view.skip(view.in_image(x, y, bin_side));
       terms.clear(), more.clear();
       for (const std::int32_t number : list) {
         const auto n = static_cast<std::size_t>(number);

@@ -38,9 +38,10 @@ struct March {
   table sources;                   // null without
   float* scratch;
 
-  int i = 0;             // the first pixel
-  bool follows = false;  // this step begins where that before ended, as the scratch holds
-  bool uneven = false;   // this stretch has Gaussians and grid
+  int i = 0;                             // the first pixel
+  bool follows = false;                  // this step begins where that before ended, as the scratch holds
+  bool uneven = false;                   // this stretch has Gaussians and grid
+  int all_steps = 0, skipped_steps = 0;  // of the vector's stretches
   Real3 d;
   Real front, within;  // optical depth so far, and that of Gaussians and grid alone
   Real most;           // radiance that the whole ray can have, were it seen through nothing
@@ -77,6 +78,7 @@ HWY_INLINE March::March(const RayMarch& algorithm, const TileView& tile_view, co
 HWY_INLINE void March::begin(int first, const Real3& direction) {
   i = first;
   d = direction;
+  all_steps = skipped_steps = 0;
   front = within = 0.0;
   going = Real(0.0) < Real(1.0);
   for (Real& s : sum) s = 0.0;
@@ -242,9 +244,13 @@ HWY_NOINLINE void March::stretch(Real begin, Real end, bool all) {
   Real from = begin;
   follows = false;
   uneven = all;
+  all_steps += a.steps;
   for (int k = 0; k < a.steps; ++k) {
     going = marching && !ended();
-    if (!any_lane(going) && !(whole && all)) break;
+    if (!any_lane(going) && !(whole && all)) {
+      skipped_steps += a.steps - k;
+      break;
+    }
     const float next = static_cast<float>(k + 1);
     const Real to = begin + (even ? length * (next / n) : graded_step(next, n, length, steep));
     const Real size = max(to - from, 0.0);
@@ -280,10 +286,13 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
                       AlignedFloats& scratch) {
   const float* distance = view.plane(a.distance);
   March march(a, view, LitRays(lit, lit_scratch), scratch.resize(a.lights.size() * floats_a_light));
+  StepCounts counts;
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
+    const int pixels = view.in_image(i, lanes);
     if (!any_lane(length > 0.0)) {
       store_no_airlight(a, view, i);
+      counts.skipped += static_cast<std::uint64_t>(pixels);
       continue;
     }
     march.begin(i, pixel_rays(a.view, view.tile, i));
@@ -304,6 +313,9 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
       march.stretch(inside.begin, behind, true);
     }
     march.stretch(behind, end, false);
+    if (march.all_steps == 0) counts.skipped += static_cast<std::uint64_t>(pixels);
+    counts.parts += static_cast<std::uint64_t>(march.all_steps) * static_cast<std::uint64_t>(pixels);
+    counts.skipped_parts += static_cast<std::uint64_t>(march.skipped_steps) * static_cast<std::uint64_t>(pixels);
 
     const Real tau = optical_depth(length, a.extinction) + march.within;
     const Real through = select(march.ended(), 0.0, transmittance(tau));
@@ -312,6 +324,7 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
     store(through, view.plane(a.transmittance) + i);
     if (a.optical_depth) store(min(tau, 1e30), view.plane(a.optical_depth) + i);
   }
+  view.counts->add(counts);
 }
 
 }  // namespace airlight::HWY_NAMESPACE

@@ -255,6 +255,8 @@ void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int
   Crossings& c = s.workers[static_cast<std::size_t>(worker)].crossings;
   const float least_end =
       entry(HWY_DISPATCH_TABLE(shadow_rays), s.simd)(a.view, view.plane(a.distance), a.sky_distance, view.tile, c);
+  const int pixels = view.in_image(0, 0, tile_side);
+  std::size_t met = 0;  // of the lights
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     const LightVolumes& light = s.lights[i];
     float* lit = view.plane(a.light_transmittance, 0, static_cast<int>(i));
@@ -267,6 +269,7 @@ void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int
       if (scattered && !covered) entry(HWY_DISPATCH_TABLE(shadow_scatter), s.simd)(a, view, i, true, c);
       continue;
     }
+    ++met;
     by_pixel(c);
     if (a.order == ShadowOrder::published) {
       find_published_parts(c, light.covering, lit);
@@ -276,6 +279,9 @@ void ShadowRasteriser::run_tile(const ShadowPlanes& a, const TileView& view, int
     }
     if (scattered) entry(HWY_DISPATCH_TABLE(shadow_scatter), s.simd)(a, view, i, false, c);
   }
+  if (met == 0) view.skip(pixels);
+  view.counts->parts += a.lights.size() * static_cast<std::uint64_t>(pixels);
+  view.counts->skipped_parts += (a.lights.size() - met) * static_cast<std::uint64_t>(pixels);
 }
 
 std::span<const LitParts> ShadowRasteriser::lit_parts(const View& camera, const Image& distance, float sky_distance,

@@ -175,6 +175,8 @@ void run_volume(const SourceFunction& a, const BufferView& view, Workers& worker
   const float *particles = view.floats(a.particles), *sent = view.floats(a.particle_sources);
   const std::vector<float> head = a.head();
   const BrickNodes all{a, head.data() + 8, {nx, ny, nz}};
+  view.counts.parts = SourceFunction::product(a.bricks);
+  view.counts.skipped_parts = view.counts.parts - a.filled.size();
   std::vector<float> sums(4 * a.all_nodes(), 0.0F);  // rgb and weights
   std::vector<float> sky(4 * 2 * shape.lines, 0.0F);
   if (a.sky) std::copy_n(view.floats(a.sky), sky.size(), sky.begin());

@@ -81,6 +81,8 @@ static void surface_airlight(const SurfaceAirlight& a, const TileView& view, std
         }
       }
       for (int c = 0; c < 3; ++c) sum[c] = select(hit, sum[c] * seen, 0.0);
+    } else {
+      view.skip(view.in_image(i, lanes));
     }
     for (int c = 0; c < 3; ++c) store(sum[c], view.plane(a.indirect, c) + i);
   }

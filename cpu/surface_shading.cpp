@@ -64,6 +64,8 @@ static void surface_shading(const SurfaceShading& a, const TileView& view) {
         direct[c] = select(hit, direct[c] * t, 0.0);
         ambient[c] = select(hit, m.diffuse[c] * a.ambient[c] * t, 0.0);
       }
+    } else {
+      view.skip(view.in_image(i, lanes));
     }
     for (int c = 0; c < 3; ++c) {
       Real all = select(hit, direct[c] + indirect[c] + ambient[c], t * a.background[c]);

@@ -147,7 +147,7 @@ void resolve(const VisibilityTile& s) {
 
 }  // namespace
 
-static void visibility_tile(VisibilityTile& s) {
+static bool visibility_tile(VisibilityTile& s) {
   bool any = false;
   for (const TriangleChunk& chunk : s.chunks) {
     const auto members = chunk.of_tile(static_cast<std::uint32_t>(s.tile.index));
@@ -160,7 +160,10 @@ static void visibility_tile(VisibilityTile& s) {
     }
     for (const std::uint32_t member : members) fill(chunk.triangles[member], s);
   }
-  if (any) return resolve(s);
+  if (any) {
+    resolve(s);
+    return true;
+  }
   for (int p = 0; p < tile_pixels; p += lanes) {
     store(Real(1e30), s.distance + p);
     for (float* n : s.normal) store(Real(0.0), n + p);
@@ -168,6 +171,7 @@ static void visibility_tile(VisibilityTile& s) {
     if (!s.corners[0]) continue;
     for (float* c : s.corners) store(Real(0.0), c + p);
   }
+  return false;
 }
 
 }  // namespace airlight::HWY_NAMESPACE
@@ -189,8 +193,9 @@ struct Rasteriser::State {
 Rasteriser::Rasteriser() : state_(std::make_unique<State>()) {}
 Rasteriser::~Rasteriser() = default;
 
-void Rasteriser::prepare(const SurfaceVisibility& a, Rows rows, std::span<const float> positions, std::span<const float> normals,
-                         std::span<const std::uint32_t> triangles, Simd simd, Workers& workers) {
+StepCounts Rasteriser::prepare(const SurfaceVisibility& a, Rows rows, std::span<const float> positions,
+                               std::span<const float> normals, std::span<const std::uint32_t> triangles, Simd simd,
+                               Workers& workers) {
   State& s = *state_;
   s.a = a;
   s.positions = positions;
@@ -198,9 +203,13 @@ void Rasteriser::prepare(const SurfaceVisibility& a, Rows rows, std::span<const 
   s.triangles = triangles;
   s.simd = simd;
   s.setup.run(a, rows, positions, triangles, workers);
+  StepCounts counts;
+  counts.parts = triangles.size() / 4;
+  for (const TriangleChunk& chunk : s.setup.chunks()) counts.skipped_parts += chunk.dropped;
+  return counts;
 }
 
-void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material,
+bool Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* normal_y, float* normal_z, float* material,
                           float* const* corners) const {
   const State& s = *state_;
   VisibilityTile view;  // 32 KiB on the stack, written before it is read
@@ -216,7 +225,7 @@ void Rasteriser::run_tile(Tile tile, float* distance, float* normal_x, float* no
   view.normal[2] = normal_z;
   view.material = material;
   for (int k = 0; k < 3; ++k) view.corners[k] = corners ? corners[k] : nullptr;
-  entry(HWY_DISPATCH_TABLE(visibility_tile), s.simd)(view);
+  return entry(HWY_DISPATCH_TABLE(visibility_tile), s.simd)(view);
 }
 
 }  // namespace airlight

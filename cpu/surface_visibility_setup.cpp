@@ -215,15 +215,18 @@ void TriangleSetup::run(const SurfaceVisibility& a, Rows rows, std::span<const f
   const auto project = [&](int c, int) {
     TriangleChunk& chunk = chunks_[static_cast<std::size_t>(c)];
     chunk.triangles.clear();
+    chunk.dropped = 0;
     const std::size_t first = static_cast<std::size_t>(c) * chunk_size, last = std::min(count, first + chunk_size);
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t* corner = &triangles[i * 4];
       const Vertex &v0 = vertices_[corner[0]], &v1 = vertices_[corner[1]], &v2 = vertices_[corner[2]];
+      const std::size_t before = chunk.triangles.size();
       if (v0.inside && v1.inside && v2.inside) {
         add(projection, chunk, v0, v1, v2, static_cast<std::uint32_t>(i));
       } else if (v0.z >= projection.near() || v1.z >= projection.near() || v2.z >= projection.near()) {
         clip(projection, chunk, v0, v1, v2, static_cast<std::uint32_t>(i));
       }
+      if (chunk.triangles.size() == before) ++chunk.dropped;
     }
     sort_by_tile(chunk, tiling);
   };

@@ -29,6 +29,7 @@ struct TriangleChunk {
   std::vector<std::uint32_t> begin;    // of each tile's part of `members`; one more at the end
   std::vector<std::uint32_t> members;  // positions in `triangles`, ascending within a tile
   std::vector<std::uint32_t> count;    // scratch
+  std::size_t dropped = 0;             // of the triangles in space: no part of them is among `triangles`
 
   std::span<const std::uint32_t> of_tile(std::uint32_t tile) const;
 };

@@ -44,9 +44,19 @@ inline bool any_ray(const float* distance, int x = 0, int y = 0, int side = tile
 
 class HeldImage;
 
+// What a step passed over, by one worker: pixels of the image, and what else it works through (common/plan/step_skips.h).
+struct StepCounts {
+  std::uint64_t skipped = 0;
+  std::uint64_t parts = 0, skipped_parts = 0;
+
+  void add(const StepCounts& more) { skipped += more.skipped, parts += more.parts, skipped_parts += more.skipped_parts; }
+};
+
 // What a kernel sees of one tile: its place, and its pixels of each image.
 struct TileView {
   Tile tile;
+  Extent extent;  // of the image
+  StepCounts* counts = nullptr;
   std::vector<float*> images;                       // by handle id; each [layer][channel][tile_pixels]
   std::vector<const HeldImage*> others;             // by handle id: images of another extent, whole
   std::vector<std::span<const std::byte>> buffers;  // by handle id
@@ -55,6 +65,13 @@ struct TileView {
     if (!image) return nullptr;
     return images[image.id] + static_cast<std::ptrdiff_t>(layer * channels(image.format) + channel) * tile_pixels;
   }
+  // How many of the n pixels from number i on, of one row of the tile, are in the image.
+  int in_image(int i, int n) const {
+    return tile.y + i / tile_side < extent.height ? std::clamp(extent.width - tile.x - i % tile_side, 0, n) : 0;
+  }
+  // And of a square of the tile.
+  int in_image(int x, int y, int side) const { return in_image(x, side) * std::clamp(extent.height - tile.y - y, 0, side); }
+  void skip(int pixels) const { counts->skipped += static_cast<std::uint64_t>(pixels); }
   const float* floats(const Buffer& buffer) const {
     return buffer ? reinterpret_cast<const float*>(buffers[buffer.id].data()) : nullptr;
   }

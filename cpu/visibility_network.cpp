@@ -138,6 +138,7 @@ struct Worker {
   std::vector<Place> places;
   std::vector<AcrossLine> gaussians;
   std::vector<float> along, erfs, depths;
+  std::size_t empty = 0;  // lists
 };
 
 void line_links(const VisibilityNetwork& a, const float* particles, const std::int32_t* lines, const float* voxels, std::size_t l,
@@ -213,6 +214,7 @@ void line_links(const VisibilityNetwork& a, const float* particles, const std::i
       entry(HWY_DISPATCH_TABLE(list_links), simd)(a, voxels, list);
     }
     if (n == 0) {
+      ++w.empty;
       for (int k = link_depth; k < link_planes; ++k) planes[k][at] = 0;
     }
     planes[link_particle][at + n] = -1;
@@ -230,6 +232,8 @@ void run_volume(const VisibilityNetwork& a, const BufferView& view, Workers& wor
     line_links(a, view.floats(a.particles), lines, view.floats(a.voxels), static_cast<std::size_t>(l),
                scratch[static_cast<std::size_t>(worker)], view.made(a.links), simd);
   });
+  view.counts.parts = a.shape().slots * a.shape().lines;
+  for (const Worker& w : scratch) view.counts.skipped_parts += w.empty;
 }
 
 }  // namespace airlight

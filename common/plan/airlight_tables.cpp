@@ -83,6 +83,11 @@ int airlight_table_nodes(Phase phase, int nodes) {
   return std::clamp(nodes * halves / 2, 8, 512);
 }
 
+std::size_t airlight_table_floats(Phase phase, int nodes) {
+  const auto n = static_cast<std::size_t>(airlight_table_nodes(phase, nodes));
+  return 4 + 3 * n * n;
+}
+
 std::vector<float> airlight_tables(Phase phase, int nodes) {
   const auto n = static_cast<std::size_t>(airlight_table_nodes(phase, nodes));
   // A peak of width 1 - |g| in angle needs the fine end of the angle axis; without one, 0.6 is best for the layer of N in dense
@@ -102,7 +107,7 @@ std::vector<float> airlight_tables(Phase phase, int nodes) {
     return std::max(w * y / (1 + w - y), 1e-9);
   };
 
-  std::vector<float> table(4 + 3 * n * n);
+  std::vector<float> table(airlight_table_floats(phase, nodes));
   table[0] = static_cast<float>(n);
   table[1] = static_cast<float>(w_beyond);
   table[2] = static_cast<float>(w_before);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/plan/gaussian_panels.h"
+
 namespace airlight {
 
 namespace {
@@ -46,7 +48,7 @@ struct Nanoseconds {
   }
   double operator()(const GaussianAirlight& a) const {
     const double met = std::pow(count(a.gaussians), 0.75), lights = count(a.lights);
-    if (a.lights.empty()) return met;  // depths alone, unless something glows
+    if (!shines(a)) return met;
     return 16 * lights + a.samples * met * (a.depths.empty() ? 3 + 4 * lights : 1.3) + (a.depths.empty() ? 0 : 60 * lights);
   }
   double operator()(const ProjectedGaussians& a) const { return 3 * std::pow(count(a.gaussians), 0.75) * (1 + count(a.lights)); }

@@ -113,13 +113,25 @@ void add_lobe(std::vector<float>& table, const EnvironmentHarmonics& from, doubl
 
 }  // namespace
 
+namespace {
+
+std::size_t environment_image_floats(Extent extent) {
+  return 4 + (static_cast<std::size_t>(extent.width) + 1) * (3 * static_cast<std::size_t>(extent.height) + 1);
+}
+
+}  // namespace
+
+std::size_t environment_table_floats(const Environment& e, std::size_t shininess, std::size_t brdfs) {
+  return environment_image_at(shininess, brdfs) + environment_image_floats(extent_of(e));
+}
+
 std::vector<float> environment_image(const Environment& e) {
   const Extent extent = extent_of(e);
   const double turns = e.rotation / 360;
   std::vector<float> table{static_cast<float>(extent.width), static_cast<float>(extent.height),
                            static_cast<float>(turns - std::floor(turns)), 0};
   const auto width = static_cast<std::size_t>(extent.width) + 1;
-  table.resize(4 + width * (3 * static_cast<std::size_t>(extent.height) + 1));
+  table.resize(environment_image_floats(extent));
   float* to = table.data() + 4;
   for (int y = 0; y < extent.height; ++y) {
     for (int x = 0; x <= extent.width; ++x) {

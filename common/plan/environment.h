@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,11 +23,13 @@ std::vector<float> environment_image(const Environment&);
 // The projection of the radiance that environment_value() gives onto the harmonics.
 EnvironmentHarmonics environment_harmonics(const Environment&);
 
-// The table of EnvironmentLight.
+// The table of EnvironmentLight, and how many floats it is.
+std::size_t environment_table_floats(const Environment&, std::size_t shininess, std::size_t brdfs);
 std::vector<float> environment_table(const Environment&, std::span<const float> shininess,
                                      std::span<const std::shared_ptr<const Brdf>> brdfs = {});
 
-// The table of EnvironmentAirlight: the environment convolved with a function of the angle between ways before and after.
+// The table of EnvironmentAirlight: the environment convolved with a function of the angle between ways before and after; 36
+// floats a channel.
 std::vector<float> environment_airlight_table(const Environment&, const Zonal&);
 
 // The table of EnvironmentIndirect: the same convolved with each lobe, with the lobes' shares above a horizon.

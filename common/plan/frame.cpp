@@ -120,8 +120,8 @@ Image FramePlan::per_light_image() {
 }
 
 Buffer FramePlan::add_airlight_tables() {
-  const Buffer tables{{airlight_tables_id}, 0};
   const int nodes = static_cast<int>(request.knobs.number("table_nodes"));
+  const Buffer tables{{airlight_tables_id}, sizeof(float) * airlight_table_floats(scene.medium.phase, nodes)};
   Hash key;
   key.add(scene.medium.phase);
   key.add(nodes);
@@ -209,7 +209,8 @@ Image FramePlan::add_indirect() {
   key.add(std::string_view(psf ? "surface psf" : "surface airlight"));
   key.add(medium.phase);
   key.add(shininess);
-  const Buffer tables{{indirect_tables_id}, 0};
+  const std::size_t floats = (1 + shininess.size()) * (psf ? surface_psf_floats : surface_airlight_floats);
+  const Buffer tables{{indirect_tables_id}, sizeof(float) * floats};
   plan.uploads.push_back(table_upload(tables, key.value(), [psf, phase = medium.phase, shininess] {
     return psf ? surface_psf_tables(shininess) : surface_airlight_tables(phase, shininess);
   }));

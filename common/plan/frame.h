@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "common/algorithms/shadow_planes.h"
 #include "common/plan/brdf.h"
 #include "common/plan/geometry.h"
+#include "common/plan/hidden_environment.h"
 #include "common/plan/lean_scene.h"
 #include "common/plan/plan.h"
 #include "common/scene/scene.h"
@@ -70,6 +72,10 @@ class FramePlan {
   Plan plan;
 
   bool has_surfaces() const { return !scene.surfaces.empty(); }
+  // What tells handles of the k-th of the lights from those of others: a light that goes out or away leaves these as they are.
+  std::uint32_t slot_of(std::size_t k) const {
+    return request.light_slots.empty() ? static_cast<std::uint32_t>(light_index[k]) : request.light_slots[light_index[k]];
+  }
   // An image of this frame's extent that is only handed on.
   Image handed_on(std::uint32_t id, Format format, int layers) const { return {{id}, format, request.extent, layers, false}; }
 
@@ -108,6 +114,7 @@ class FramePlan {
   Image add_environment_indirect(Image scattered);
   Image mean_depth();
   Image add_environment();
+  std::function<HiddenSizes()> hiding_sizes() const;
   void expect_environment_shadows();
   void add_environment_shadows();
   Buffer add_brdfs();

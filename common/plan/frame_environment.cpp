@@ -63,7 +63,7 @@ std::optional<EnvironmentAirlight> FramePlan::take_environment_airlight() {
   if (!airlight_) return std::nullopt;
   const bool published = request.knobs.choice("environment_airlight") == "published";
   const Medium& medium = scene.medium;
-  const Buffer tables{{environment_airlight_id}, 0};
+  const Buffer tables{{environment_airlight_id}, sizeof(float) * environment_harmonics_floats};
   Hash key;
   key.add(std::string_view("environment airlight"));
   key.add(environment_key(*scene.environment, {}));
@@ -84,6 +84,13 @@ std::optional<EnvironmentAirlight> FramePlan::take_environment_airlight() {
                              .gaussian_albedo = environment_in_fog_alone_ ? glm::vec3(0) : rest_albedo(),
                              .scattering = published ? EnvironmentScattering::published : EnvironmentScattering::depths,
                              .airlight = airlight};
+}
+
+// Of what hides; without a source of transfers, at most.
+std::function<HiddenSizes()> FramePlan::hiding_sizes() const {
+  return [hiding = hiding_, source = request.transfer, rays = static_cast<int>(request.knobs.number("environment_rays"))] {
+    return hidden_sizes(*hiding, source ? source->transfer(*hiding, rays).get() : nullptr);
+  };
 }
 
 // Where surfaces hide anything, edges are cut and corners are wanted.
@@ -110,17 +117,19 @@ void FramePlan::expect_environment_shadows() {
   const auto part = std::make_shared<Scene>();
   part->camera = scene.camera, part->surfaces = scene.surfaces, part->environment = scene.environment;
   hiding_ = part;
-  const auto cut = [&](Plan::Upload& upload, std::vector<std::byte> (*make)(const Scene&, const SurfaceTransfer&)) {
+  const auto cut = [&](Plan::Upload& upload, std::vector<std::byte> (*make)(const Scene&, const SurfaceTransfer&),
+                       std::size_t HiddenSizes::*count, std::size_t bytes) {
     Hash key;
     key.add(upload.key), key.add(transfer_key_);
     upload.key = key.value();
+    upload.most = [sizes = hiding_sizes(), count, bytes] { return bytes * sizes().*count; };
     upload.make = [hiding = hiding_, source = request.transfer, rays, make] {
       return make(*hiding, *source->transfer(*hiding, rays));
     };
   };
-  cut(geometry.positions, cut_positions);
-  cut(geometry.normals, cut_normals);
-  cut(geometry.indices, cut_triangles);
+  cut(geometry.positions, cut_positions, &HiddenSizes::vertices, sizeof(glm::vec3));
+  cut(geometry.normals, cut_normals, &HiddenSizes::vertices, sizeof(glm::vec3));
+  cut(geometry.indices, cut_triangles, &HiddenSizes::triangles, sizeof(glm::uvec4));
   corners_ = handed_on(next_id_++, Format::rgb32f, 1);
 }
 
@@ -148,6 +157,7 @@ void FramePlan::add_environment_shadows() {
   plan.uploads.push_back(table_upload(table, key.value(), [hiding = hiding_, source = request.transfer, rays] {
     return hidden_environment_table(*hiding, *source->transfer(*hiding, rays));
   }));
+  plan.uploads.back().most = [sizes = hiding_sizes()] { return sizeof(float) * sizes().table; };
   plan.steps.push_back({HiddenEnvironment{.normal = normal,
                                           .corners = corners_,
                                           .triangles = geometry.indices.buffer,
@@ -164,7 +174,8 @@ Image FramePlan::add_environment() {
   if (!scene.environment) return {};
   const std::vector<Material> materials = brdfs.without_lobes(materials_of(scene));
   const std::vector<float> shininess = shininess_of(materials);
-  const Buffer tables{{environment_id}, 0};
+  const Buffer tables{{environment_id},
+                      sizeof(float) * environment_table_floats(*scene.environment, shininess.size(), brdfs.all.size())};
   Hash key;
   key.add(environment_key(*scene.environment, shininess));
   if (!brdfs.all.empty()) key.add(brdfs.key);

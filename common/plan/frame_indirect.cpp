@@ -63,7 +63,7 @@ Image FramePlan::add_environment_indirect(Image scattered) {
     throw InputError("setting environment_indirect: published is of the isotropic phase function, the scene has another");
   const std::vector<Material> materials = materials_of(scene);
   const std::vector<float> shininess = shininess_of(materials);
-  const Buffer tables{{environment_indirect_id}, 0};
+  const Buffer tables{{environment_indirect_id}, sizeof(float) * environment_harmonics_at(shininess.size())};
   Hash key;
   key.add(std::string_view("environment indirect"));
   key.add(environment_key(*scene.environment, shininess));

@@ -68,6 +68,16 @@ bool in_view(const View& view, const GaussianDensity& g) {
   return box.columns.least <= box.columns.most && box.rows.least <= box.rows.most;
 }
 
+std::size_t count_gaussian_bins(const View& view, std::span<const GaussianDensity> gaussians) {
+  std::size_t count = static_cast<std::size_t>(bin_columns(view.extent)) * static_cast<std::size_t>(bin_rows(view.extent)) + 1;
+  const auto of = [](const Squares& s) { return static_cast<std::size_t>(std::max(s.most - s.least + 1, 0)); };
+  for (const GaussianDensity& g : gaussians) {
+    const Box box = box_of(view, g);
+    count += of(box.columns) * of(box.rows);
+  }
+  return count;
+}
+
 std::vector<std::int32_t> gaussian_bins(const View& view, std::span<const GaussianDensity> gaussians, std::string_view setting,
                                         std::string_view what) {
   const auto columns = static_cast<std::size_t>(bin_columns(view.extent)), rows = static_cast<std::size_t>(bin_rows(view.extent));

@@ -2,6 +2,7 @@
 // a square. Only + - * / and square roots: the same on every machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -25,5 +26,7 @@ bool in_view(const View&, const GaussianDensity&);
 // message names the setting and what is listed.
 std::vector<std::int32_t> gaussian_bins(const View&, std::span<const GaussianDensity>, std::string_view setting = "light_path",
                                         std::string_view what = "Gaussians");
+// How many numbers these are.
+std::size_t count_gaussian_bins(const View&, std::span<const GaussianDensity>);
 
 }  // namespace airlight

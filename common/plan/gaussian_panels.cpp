@@ -286,14 +286,8 @@ struct GaussianPanels::Build {
     return std::clamp(static_cast<int>(n) - most_spared, std::min(2, a.samples), a.samples);
   }
 
-  // Something along the rays is lit, or glows; else depths are all that is asked for.
-  bool shines() const {
-    return !a.lights.empty() || a.emission != glm::vec3(0) ||
-           std::any_of(out.met_.begin(), out.met_.end(), [&](auto i) { return a.gaussians[i].emission != glm::vec3(0); });
-  }
-
   void run() {
-    if (!shines()) return;
+    if (!shines(a, out.met_)) return;
     most_spared = spared();
     const double extinction = static_cast<double>(a.extinction);
     // Not sky_distance: surfaces may be farther away than that.
@@ -332,6 +326,21 @@ struct GaussianPanels::Build {
     between(limit);
   }
 };
+
+namespace {
+
+bool everything_shines(const GaussianAirlight& a) { return !a.lights.empty() || a.emission != glm::vec3(0); }
+bool glows(const GaussianDensity& g) { return g.emission != glm::vec3(0); }
+
+}  // namespace
+
+bool shines(const GaussianAirlight& a, std::span<const std::uint32_t> met) {
+  return everything_shines(a) || std::any_of(met.begin(), met.end(), [&](auto i) { return glows(a.gaussians[i]); });
+}
+
+bool shines(const GaussianAirlight& a) {
+  return everything_shines(a) || std::any_of(a.gaussians.begin(), a.gaussians.end(), glows);
+}
 
 GaussianPanels::GaussianPanels() : near_(std::make_unique<Neighbourhood>()) {}
 GaussianPanels::~GaussianPanels() = default;

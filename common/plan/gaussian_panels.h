@@ -16,6 +16,11 @@ namespace airlight {
 
 constexpr int bin_side = 16;  // pixels of a square; quarters of it and theirs where small Gaussians crowd it
 
+// Whether anything along rays through these Gaussians, or through all that there are, is lit or glows; else depths are all that
+// is asked for.
+bool shines(const GaussianAirlight&, std::span<const std::uint32_t> met);
+bool shines(const GaussianAirlight&);
+
 // The panels of one square, in order along the rays; none where nothing is lit and nothing glows.
 class GaussianPanels {
  public:

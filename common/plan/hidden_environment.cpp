@@ -160,6 +160,38 @@ std::vector<float> hidden_environment_table(const Scene& scene, const SurfaceTra
   return table;
 }
 
+HiddenSizes hidden_sizes(const Scene& scene, const SurfaceTransfer* transfer) {
+  HiddenSizes sizes;
+  const SceneBrdfs brdfs = brdfs_of(scene);
+  const auto has_lobe = [&](std::size_t s) {
+    return brdfs.of_surface[s] >= 0 || scene.surfaces[s].material.specular != glm::vec3(0);
+  };
+  std::size_t lobes = 0, records = 0;
+  bool any = false;
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const Mesh& mesh = *scene.surfaces[s].mesh;
+    sizes.vertices += mesh.positions.size(), sizes.triangles += mesh.triangles.size();
+    lobes += has_lobe(s) ? 2 * mesh.positions.size() : 0;
+    any = any || has_lobe(s);
+  }
+  if (transfer) {
+    sizes.vertices = transfer->vertices();
+    sizes.triangles = std::max(sizes.triangles, transfer->triangles.size());
+    const std::vector<std::uint32_t> surface = surfaces_of(scene, *transfer);
+    lobes = 0;
+    for (std::size_t v = 0; v < transfer->record.size(); ++v)
+      lobes += transfer->record[v] != SurfaceTransfer::nothing && has_lobe(surface[v % sizes.vertices]) ? 1 : 0;
+  } else {
+    constexpr std::size_t more = 2 * SurfaceTransfer::most_cuts;
+    sizes.vertices += more, sizes.triangles += more;
+    lobes += any ? 2 * more : 0;
+  }
+  records = 2 * sizes.vertices;
+  sizes.table =
+      hidden_head_floats + brdfs.all.size() * brdf_lobe_floats + records * hidden_vertex_floats + lobes * hidden_lobe_floats;
+  return sizes;
+}
+
 std::vector<std::byte> cut_positions(const Scene& scene, const SurfaceTransfer& transfer) {
   std::vector<glm::dvec3> world;
   for (const Surface& s : scene.surfaces) {

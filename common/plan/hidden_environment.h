@@ -1,6 +1,7 @@
 // What surfaces hide of an environment, as HiddenEnvironment takes it.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace airlight {
 // environment, and the lobe (Zhou et al. 2007, eq. 20), of which all but the lobe's direction is done here; tabulated
 // reflectances, whose lobe changes with the viewing angle, by the same without the lobe.
 std::vector<float> hidden_environment_table(const Scene&, const SurfaceTransfer&);
+
+// How many floats that is, and how many vertices and triangles the geometry below; without a transfer, which takes long to make:
+// at most, where no more than two triangles meet in an edge.
+struct HiddenSizes {
+  std::size_t table = 0, vertices = 0, triangles = 0;
+};
+HiddenSizes hidden_sizes(const Scene&, const SurfaceTransfer*);
 
 // The coefficients of hidden(direction) times an environment, both of order 6, cut off again at that order.
 class HarmonicProduct {

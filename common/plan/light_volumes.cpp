@@ -48,9 +48,7 @@ LightVolumes add_light_volumes(FramePlan& frame, const MediumBox& box, const Dep
     };
     const DepthVolume volume = placed(box.corner);
     floats += volume.floats();
-    // By the light's place in the scene: a light that goes out leaves the others' volumes as they are.
-    const auto place = static_cast<std::uint32_t>(frame.light_index[k]);
-    const Buffer depths{{first_id + place}, sizeof(float) * volume.floats()};
+    const Buffer depths{{first_id + light_ids * frame.slot_of(k)}, sizeof(float) * volume.floats()};
     Light light = light_of(source, box.corner);
     light.power = glm::vec3(1);  // a light that only changes its power keeps its volume
     frame.plan.steps.push_back({OpticalDepthPropagation{.gaussians = steps.from.gaussians,

@@ -38,7 +38,10 @@ struct DepthSteps {
   std::size_t floats = 0;           // [float] of what else the plan keeps
   const char* knob = "resolution";  // which sets how fine they are
 };
-// A step a light; ids from first_id on. Throws InputError where all volumes of the plan would take more than 1 GiB.
+// Handles of each light, of which these volumes have the first.
+constexpr std::uint32_t light_ids = 2;
+// A step a light; ids from first_id on, light_ids apart. Throws InputError where all volumes of the plan would take more than 1
+// GiB.
 LightVolumes add_light_volumes(FramePlan&, const MediumBox&, const DepthSteps&, std::uint32_t first_id);
 
 }  // namespace airlight

@@ -114,14 +114,23 @@ std::vector<float> particle_splats(const std::vector<float>& particles, const Ne
   return splats;
 }
 
-std::vector<std::int32_t> splat_bins(const View& view, const std::vector<float>& splats) {
+namespace {
+
+// What squares are told for.
+std::vector<GaussianDensity> reaches_of(const std::vector<float>& splats) {
   std::vector<GaussianDensity> all(splats.size() / splat_fields);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const float* one = splats.data() + splat_fields * k;
     all[k].center = {one[splat_center], one[splat_center + 1], one[splat_center + 2]};
     all[k].reach = 1 / one[splat_inverse_support];
   }
-  return gaussian_bins(view, all, "image", "splats");
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> splat_bins(const View& view, const std::vector<float>& splats) {
+  return gaussian_bins(view, reaches_of(splats), "image", "splats");
 }
 
 void add_particle_splats(FramePlan& frame, const NetworkIteration& network, const Plan::Upload& particles,
@@ -150,11 +159,15 @@ void add_particle_splats(FramePlan& frame, const NetworkIteration& network, cons
   frame.plan.uploads.push_back(table_upload({{first_id + 2}, sizeof(float) * floats}, key.value(), splats));
   const Buffer splat_buffer = frame.plan.uploads.back().buffer;
   key.add(frame.view);
-  frame.plan.uploads.push_back({{{first_id + 3}, 0}, key.value(), [splats, view = frame.view] {
-                                  const std::vector<std::int32_t> bins = splat_bins(view, splats());
-                                  const auto bytes = std::as_bytes(std::span(bins));
-                                  return std::vector<std::byte>(bytes.begin(), bytes.end());
-                                }});
+  frame.plan.uploads.push_back(
+      {{{first_id + 3}, 0},
+       key.value(),
+       [splats, view = frame.view] {
+         const std::vector<std::int32_t> bins = splat_bins(view, splats());
+         const auto bytes = std::as_bytes(std::span(bins));
+         return std::vector<std::byte>(bytes.begin(), bytes.end());
+       },
+       [splats, view = frame.view] { return sizeof(std::int32_t) * count_gaussian_bins(view, reaches_of(splats())); }});
   frame.plan.steps.push_back({ParticleSplats{.distance = frame.distance,
                                              .scattered = scattered,
                                              .lines = network.lines,

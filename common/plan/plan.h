@@ -24,6 +24,9 @@ struct FrameRequest {
   std::set<std::string> images;  // names as in aov_names(), "beauty" among them where wanted
   KnobValues knobs;
   std::shared_ptr<TransferSource> transfer = {};  // asked by uploads alone; none for plans whose uploads are not made
+  // By place of the light in the scene (common/plan/light_slots.h): tells apart handles of what belongs to each. Empty: its
+  // place.
+  std::vector<std::uint32_t> light_slots = {};
 };
 
 struct Plan {
@@ -31,6 +34,7 @@ struct Plan {
     Buffer buffer;
     std::uint64_t key = 0;                         // names the content
     std::function<std::vector<std::byte>()> make;  // called only when no backend holds it under this key
+    std::function<std::uint64_t()> most = {};      // [byte] that it makes at most, where `buffer` does not tell
   };
   struct Skip {
     Rule rule;

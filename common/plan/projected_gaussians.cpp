@@ -10,6 +10,7 @@
 #include "common/plan/depths_to_centers.h"
 #include "common/plan/gaussian_bins.h"
 #include "common/plan/hash.h"
+#include "common/plan/light_volumes.h"
 #include "common/plan/ray_noise.h"
 #include "common/plan/upload.h"
 
@@ -37,30 +38,33 @@ std::vector<float> as_floats(const std::vector<double>& values) { return {values
 Plan::Upload bins_upload(std::uint32_t id, const Gaussians& all, const View& view) {
   Hash key = hash_of("Gaussians of squares", all);
   key.add(view);
-  return {{{id}, 0}, key.value(), [all, view] {
+  return {{{id}, 0},
+          key.value(),
+          [all, view] {
             const std::vector<std::int32_t> bins = gaussian_bins(view, *all);
             const auto bytes = std::as_bytes(std::span(bins));
             return std::vector<std::byte>(bytes.begin(), bytes.end());
-          }};
+          },
+          [all, view] { return sizeof(std::int32_t) * count_gaussian_bins(view, *all); }};
 }
 
 // Of a place from which the Gaussians are seen.
 Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen) {
-  return table_upload({{id}, 0}, hash_of("depths from a place", seen).value(),
+  return table_upload({{id}, sizeof(float) * seen->size()}, hash_of("depths from a place", seen).value(),
                       [seen] { return as_floats(depths_to_centers(*seen).others); });
 }
 
 Plan::Upload depths_upload(std::uint32_t id, const Gaussians& seen, const glm::vec3& direction) {
   Hash key = hash_of("depths along a direction", seen);
   key.add(direction);
-  return table_upload({{id}, 0}, key.value(),
+  return table_upload({{id}, sizeof(float) * seen->size()}, key.value(),
                       [seen, direction] { return as_floats(depths_to_centers(*seen, direction).others); });
 }
 
 Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, const std::vector<Light>& lights) {
   Hash key = hash_of("depths from the lights to the camera", seen);
   for (const Light& light : lights) key.add(light.vector), key.add(light.directional);
-  return table_upload({{id}, 0}, key.value(), [seen, lights] {
+  return table_upload({{id}, sizeof(float) * lights.size()}, key.value(), [seen, lights] {
     std::vector<double> depths;
     depths.reserve(lights.size());
     for (const Light& light : lights)
@@ -72,7 +76,7 @@ Plan::Upload light_to_camera_upload(std::uint32_t id, const Gaussians& seen, con
 }  // namespace
 
 void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity>& gaussians, Erf erf, Buffer tables,
-                             Buffer volumes, std::uint32_t first_id) {
+                             Buffer volumes, std::uint32_t first_id, std::uint32_t light_id) {
   const Scene& scene = frame.scene;
   const auto refuse = [](const char* what) {
     throw InputError("setting light_path: published " + std::string(what) + ", or another light_path");
@@ -96,7 +100,7 @@ void add_projected_gaussians(FramePlan& frame, const std::vector<GaussianDensity
   std::vector<Buffer> to_light;
   for (std::size_t k = 0; k < frame.lights.size(); ++k) {
     const LightSource& source = scene.lights[frame.light_index[k]];
-    const std::uint32_t id = first_id + 3 + static_cast<std::uint32_t>(frame.light_index[k]);
+    const std::uint32_t id = light_id + light_ids * frame.slot_of(k);
     if (frame.lights[k].directional) {
       // Seen from a place that does not move with the camera, and is near for the sake of single precision.
       const Gaussians from_one = shared(gaussians_of(scene, scene.medium.gaussians.front().center));

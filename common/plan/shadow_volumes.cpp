@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -109,30 +110,53 @@ void back_to_front(std::span<ShadowEdge> edges, const ShadowLight& light) {
   std::transform(sorted.begin(), sorted.end(), edges.begin(), [](const auto& p) { return p.second; });
 }
 
+namespace {
+
+// visit(surface, silhouette edge): all that throw shadow planes of this light.
+template <class Visit>
+void each_silhouette_edge(const Scene& scene, std::size_t index, Visit&& visit) {
+  const LightSource& source = scene.lights[index];
+  const HomogeneousLight light = light_near_camera(scene, index);
+  const HomogeneousLight in_world{light.point > 0 ? source.position : light.vector, light.point};
+  for (const Surface& s : scene.surfaces) {
+    if (!shadow_matters(scene, s, source)) continue;
+    for (const SilhouetteEdge& e : *mesh_silhouette(s.mesh, s.transform, in_world)) visit(s, e);
+  }
+}
+
+}  // namespace
+
+std::size_t shadow_volume_bytes(const Scene& scene, const std::vector<std::size_t>& lights) {
+  std::size_t edges = 0;
+  for (const std::size_t index : lights) {
+    each_silhouette_edge(scene, index, [&](const Surface&, const SilhouetteEdge& e) {
+      edges += static_cast<std::size_t>((std::abs(e.multiplicity) + shadow_multiplicity - 1) / shadow_multiplicity);
+    });
+  }
+  return lights.size() * sizeof(ShadowLight) + edges * sizeof(ShadowEdge);
+}
+
 ShadowVolumes shadow_volumes(const Scene& scene, const std::vector<std::size_t>& lights, ShadowOrder order) {
   ShadowVolumes volumes;
   const glm::dvec3 camera = scene.camera.position;
   for (const std::size_t index : lights) {
-    const LightSource& source = scene.lights[index];
     const HomogeneousLight light = light_near_camera(scene, index);
-    const HomogeneousLight in_world{light.point > 0 ? source.position : light.vector, light.point};
     ShadowLight header{};
     copy(light.vector, header.vector);
     header.point = light.point;
     header.first = static_cast<std::int64_t>(volumes.edges.size());
     for (const Surface& s : scene.surfaces) {
-      if (!shadow_matters(scene, s, source)) continue;
-      header.covering += covering(s, camera, light);
-      for (const SilhouetteEdge& e : *mesh_silhouette(s.mesh, s.transform, in_world)) {
-        ShadowEdge edge{};
-        copy(placed(s, s.mesh->positions[e.a]) - camera, edge.a);
-        copy(placed(s, s.mesh->positions[e.b]) - camera, edge.b);
-        for (std::int32_t rest = e.multiplicity; rest != 0; rest -= edge.multiplicity) {
-          edge.multiplicity = std::clamp(rest, -shadow_multiplicity, shadow_multiplicity);
-          volumes.edges.push_back(edge);
-        }
-      }
+      if (shadow_matters(scene, s, scene.lights[index])) header.covering += covering(s, camera, light);
     }
+    each_silhouette_edge(scene, index, [&](const Surface& s, const SilhouetteEdge& e) {
+      ShadowEdge edge{};
+      copy(placed(s, s.mesh->positions[e.a]) - camera, edge.a);
+      copy(placed(s, s.mesh->positions[e.b]) - camera, edge.b);
+      for (std::int32_t rest = e.multiplicity; rest != 0; rest -= edge.multiplicity) {
+        edge.multiplicity = std::clamp(rest, -shadow_multiplicity, shadow_multiplicity);
+        volumes.edges.push_back(edge);
+      }
+    });
     header.count = static_cast<std::int64_t>(volumes.edges.size()) - header.first;
     if (order == ShadowOrder::published)
       back_to_front(std::span(volumes.edges).subspan(static_cast<std::size_t>(header.first)), header);
@@ -162,13 +186,16 @@ Plan::Upload shadow_volumes_upload(const Scene& scene, const std::vector<std::si
     const glm::dvec3 where = light.type == LightType::directional ? light.direction : light.position;
     for (int c = 0; c < 3; ++c) key.add(where[c]);
   }
-  return {{{id}, 0}, key.value(), [kept, all, order] {
+  return {{{id}, 0},
+          key.value(),
+          [kept, all, order] {
             const ShadowVolumes volumes = shadow_volumes(kept, all, order);
             const auto header = std::as_bytes(std::span(volumes.lights)), edges = std::as_bytes(std::span(volumes.edges));
             std::vector<std::byte> bytes(header.begin(), header.end());
             bytes.insert(bytes.end(), edges.begin(), edges.end());
             return bytes;
-          }};
+          },
+          [kept, all] { return shadow_volume_bytes(kept, all); }};
 }
 
 }  // namespace airlight

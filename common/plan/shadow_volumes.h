@@ -28,6 +28,8 @@ struct ShadowVolumes {
 // `lights`: positions in Scene::lights, in the order of the algorithm's. Edges of one light lie as the meshes have them, or for
 // the published order back to front.
 ShadowVolumes shadow_volumes(const Scene&, const std::vector<std::size_t>& lights, ShadowOrder);
+// [byte] of them. Silhouettes that are found for that are kept until they are wanted.
+std::size_t shadow_volume_bytes(const Scene&, const std::vector<std::size_t>& lights);
 
 // Sorts shadow planes as wholes, the last met by a ray from the camera first. Along any such ray the angle at a point light
 // between the camera and the ray's point grows (for a directional light: the distance from the line through the camera toward

@@ -15,6 +15,7 @@ namespace airlight {
 
 struct SurfaceTransfer {
   static constexpr std::size_t record_floats = 72;
+  static constexpr std::size_t most_cuts = 100000;  // of edges; in each two triangles meet, with vertices of their own or not
   static constexpr std::uint32_t nothing = 0xffffffffU, everything = 0xfffffffeU;  // is hidden: no record
 
   // Long edges are cut where what is hidden changes along them. Each pair: two vertices, midway between which the next vertex

@@ -21,4 +21,18 @@ Plan::Upload table_upload(Buffer buffer, std::uint64_t key, Make make) {
           }};
 }
 
+// [byte] at most of all that a plan uploads, before anything of it is made.
+inline std::uint64_t bytes_of_uploads(const Plan& plan) {
+  std::uint64_t bytes = 0;
+  for (const Plan::Upload& upload : plan.uploads) bytes += upload.most ? upload.most() : upload.buffer.bytes;
+  return bytes;
+}
+
+// And what of that is known at once.
+inline std::uint64_t least_bytes_of_uploads(const Plan& plan) {
+  std::uint64_t bytes = 0;
+  for (const Plan::Upload& upload : plan.uploads) bytes += upload.most ? 0 : upload.buffer.bytes;
+  return bytes;
+}
+
 }  // namespace airlight

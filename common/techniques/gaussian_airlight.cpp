@@ -5,6 +5,7 @@
 
 #include "common/plan/gaussian_bins.h"
 #include "common/plan/gaussian_light_volumes.h"
+#include "common/plan/gaussian_panels.h"
 #include "common/plan/gaussian_shadows.h"
 #include "common/plan/projected_gaussians.h"
 #include "common/plan/ray_noise.h"
@@ -26,7 +27,8 @@ enum : std::uint32_t {
   surfaces_id,
   injected_id = surfaces_id + 2,
   samples_id,
-  depths_id = samples_id + sampled_airlight_ids
+  projected_id = samples_id + sampled_airlight_ids,
+  depths_id = projected_id + projected_gaussians_ids
 };
 
 Plan plan(const Scene& given, const FrameRequest& request) {
@@ -52,8 +54,7 @@ Plan plan(const Scene& given, const FrameRequest& request) {
   const Buffer volumes = frame.add_shadow_volumes(volumes_id);
   const LightVolumes toward_lights = add_gaussian_light_volumes(frame, gaussians, injected_id, depths_id);
   if (!gaussians.empty() && request.knobs.choice("light_path") == "published") {
-    const auto lights = static_cast<std::uint32_t>(scene.lights.size());
-    add_projected_gaussians(frame, gaussians, erf, tables, volumes, depths_id + lights);
+    add_projected_gaussians(frame, gaussians, erf, tables, volumes, projected_id, depths_id + 1);
   } else {
     auto step = frame.along_view_ray<GaussianAirlight>();
     step.tables = tables;
@@ -64,6 +65,8 @@ Plan plan(const Scene& given, const FrameRequest& request) {
     step.samples = static_cast<int>(request.knobs.number("samples"));
     step.erf = erf;
     step.noise = noise;
+    if (!met.empty() && !shines(step))
+      frame.plan.skips.push_back({Rule::no_nodes, "nodes along the view rays", "nothing on them is lit or glows"});
     frame.plan.steps.push_back({step, "light scattered once along the view ray"});
     sample_airlight(frame, samples_id);  // section 5.4
   }
@@ -82,9 +85,6 @@ Plan plan(const Scene& given, const FrameRequest& request) {
                                 toward_lights.depths.empty() ? "they may shade what is seen, and do nothing else"
                                                              : "they are in the volumes toward the lights, and nowhere else"});
   }
-  const auto glows = [](const GaussianDensity& g) { return g.emission != glm::vec3(0); };
-  if (!met.empty() && frame.lights.empty() && medium.emission == glm::dvec3(0) && std::none_of(met.begin(), met.end(), glows))
-    frame.plan.skips.push_back({Rule::no_nodes, "nodes along the view rays", "nothing on them is lit or glows"});
   if (!tables) frame.plan.skips.push_back({Rule::no_tables, "airlight tables", lamps ? "no homogeneous fog" : "no point light"});
   return frame.finish();
 }

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double shortest_edge = 1.0 / 32;  // of the smallest caster
 constexpr double least_bend = 0.03;         // of a white surface under a white sky
-constexpr std::size_t most_cuts = 100000;
 constexpr std::size_t chunk = 64;
 
 }  // namespace
@@ -207,7 +206,7 @@ bool Receivers::cut() {
       more = chosen.insert(welded(edge(t[k], t[(k + 1) % 3]))).second || more;
     }
   }
-  if (midpoints_.size() + chosen.size() > most_cuts) return false;
+  if (midpoints_.size() + chosen.size() > SurfaceTransfer::most_cuts) return false;
 
   std::unordered_map<Edge, std::uint32_t> vertex;
   const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::int64_t {

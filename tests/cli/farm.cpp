@@ -126,6 +126,29 @@ TEST_F(Farm, LargeImagesTakeNoMoreThanTheyMay) {
   refused(render + "no.exr --memory 4X", "--memory: expected");
 }
 
+// Three MiB of a mesh, in a picture of 48 KiB.
+TEST_F(Farm, LargeScenesTakeNoMoreThanTheyMay) {
+  constexpr int n = 200;
+  std::string plane;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) plane += "v " + std::to_string(0.05 * i - 5) + " -1 " + std::to_string(-0.05 * j) + "\n";
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int at = 1 + i + (n + 1) * j;
+      for (const int other : {at + 1, at + n + 1})
+        plane += "f " + std::to_string(at) + " " + std::to_string(at + n + 2) + " " + std::to_string(other) + "\n";
+    }
+  }
+  work.write("plane.obj", plane);
+  work.write("plane.json",
+             R"({ "airlight": 1, "lights": [ { "type": "directional", "direction": [0, -1, 0], "irradiance": [1, 1, 1] } ],
+    "medium": { "homogeneous": { "extinction": 0.1 } }, "surfaces": [ { "mesh": "plane.obj" } ] })");
+  const std::string render = "render plane.json --resolution 64x64 -o ";
+  refused(render + "no.exr --memory 2M", "of which the scene's meshes, grids and tables are", 3);
+  ok(render + "yes.exr --memory 8M");
+}
+
 }  // namespace
 
 }  // namespace airlight
