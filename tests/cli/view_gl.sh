@@ -76,3 +76,17 @@ oiiotool --pattern constant:color=0,0,0 79x100 3 -d uint8 -o black.png
 wait_for "difference" difference
 near difference.png black.png 8 "ten times the difference of the backends"
 stop
+
+start scene.json -o read.json --backend gl --gl-context osmesa --exposure 1.25
+logged 'GL: gl, .*OSMesa$'
+shown read
+near read.png first.png 1 "read back and drawn directly"
+stop
+
+export MESA_GL_VERSION_OVERRIDE=3.3       # the window has OpenGL, but no 4.5
+start scene.json -o none.json --backend gl
+logged 'GL: the window system has no OpenGL 4.5 core context'
+step "$(grep 'GL: ' log)"
+xdotool key b
+picture                                   # 5
+stop

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -75,8 +76,9 @@ class GlHosts : public testing::Test {
     return renderer.render(scene, as_textures()).texture("beauty");
   }
   // Copied back, by a renderer that shares nothing.
-  static std::vector<float> image(const Scene& scene) {
-    return Renderer({.backend = "gl", .gl_context = "osmesa"}).render(scene, {}).image("beauty").values;
+  std::vector<float> image(const Scene& scene) {
+    if (!alone_) alone_.emplace(RendererOptions{.backend = "gl", .gl_context = "osmesa"});
+    return alone_->render(scene, {}).image("beauty").values;
   }
   // By the reader's context.
   std::vector<float> content(GlTexture& t) const {
@@ -108,6 +110,7 @@ class GlHosts : public testing::Test {
     ASSERT_NE(f, nullptr) << name;
   }
 
+  std::optional<Renderer> alone_;
   Create create_ = nullptr;
   Destroy destroy_ = nullptr;
   MakeCurrent make_current_ = nullptr;
