@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/gl_host.h"
 #include "common/image.h"
 #include "common/progress.h"
 #include "common/rows.h"
@@ -38,6 +39,8 @@ struct RendererOptions {
   int threads = 0;                  // 0: as many as the machine has
   std::string gl_context = "auto";  // auto | osmesa | egl; gl only. auto: EGL on hardware where there is some, else OSMesa
   int gl_device = 0;                // which EGL device
+  // gl: in place of gl_context and gl_device. Its contexts draw what the renderer makes: RenderSettings::textures.
+  std::optional<GlHost> gl_host = {};
   // Files that keep what surfaces hide of an environment are read, and written where they can be: DIGITS.transfer in
   // $XDG_CACHE_HOME/airlight, ~/.cache/airlight unless that is set.
   bool transfer_files = false;
@@ -55,15 +58,20 @@ struct RenderSettings {
   // Of the image, which are made alone; those that it has not are left out. They have the bits that they have in the whole image.
   Rows rows = {};
   std::vector<std::string> images{"beauty"};  // what to make: see image_names() in common/techniques/technique.h
+  // Images are not copied back but handed over as Frame::textures, by a renderer with a gl_host: of whole frames, of one sample a
+  // pixel, none of one light among several.
+  bool textures = false;
 };
 
 struct Frame {
-  std::vector<NamedImage> images;  // in the order asked for; as high as there are rows
+  std::vector<NamedImage> images;      // in the order asked for; as high as there are rows
+  std::vector<NamedTexture> textures;  // in their place, where asked for; in any order
   Stats stats;
   std::string technique;                                   // what ran
   std::vector<std::pair<std::string, std::string>> knobs;  // every knob with its value
   std::string device;                                      // Backend::describe(), or the reference's line
   const HostImage& image(std::string_view name) const;     // throws std::out_of_range
+  const std::shared_ptr<GlTexture>& texture(std::string_view name) const;
 };
 
 class Renderer {

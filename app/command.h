@@ -80,6 +80,7 @@ struct ViewCommand {
   std::optional<double> fog;  // [1/m] extinction in place of the scene's: the first edit
   RendererOptions renderer;
   Extent size{800, 600};  // of the picture
+  float exposure = 0;     // [stops] at first
 };
 // `size`: text of the flag.
 CLI::App* add_view_command(CLI::App& program, ViewCommand&, std::string& size);

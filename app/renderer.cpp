@@ -29,7 +29,7 @@ namespace airlight {
 namespace {
 
 std::unique_ptr<Backend> make_backend(const RendererOptions& o) {
-  if (o.backend == "gl") return make_gl_backend({.context = o.gl_context, .device = o.gl_device});
+  if (o.backend == "gl") return make_gl_backend({.context = o.gl_context, .device = o.gl_device, .host = o.gl_host});
   if (o.backend != "cpu") throw InputError("unknown backend \"" + o.backend + "\", expected cpu | gl");
   CpuOptions cpu;
   cpu.threads = o.threads;
@@ -81,7 +81,7 @@ HostImage image_of(Backend& backend, const Plan::Output& output, Rows wanted) {
   return image;
 }
 
-Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Progress& progress) {
+void run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Progress& progress) {
   for (const Plan::Upload& upload : plan.uploads) {
     progress.check();
     if (!backend.holds(upload.buffer, upload.key)) backend.upload(upload.buffer, upload.make(), upload.key);
@@ -95,9 +95,6 @@ Images run_plan(Backend& backend, const Plan& plan, Rows rows, Stats& stats, Pro
   } else {
     add(stats, pass);
   }
-  Images images;
-  for (const Plan::Output& output : plan.outputs) images.emplace(output.name, image_of(backend, output, rows));
-  return images;
 }
 
 }  // namespace
@@ -131,14 +128,32 @@ struct Renderer::State {
     return made;
   }
 
+  Plan run(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows, Stats& stats,
+           Progress& progress) {
+    Plan made = plan(technique, scene, request, rows);
+    seen = camera_key(technique, scene, request);
+    slots = slots.after(scene.lights);
+    run_plan(*backend, made, rows, stats, progress);
+    return made;
+  }
+
+  std::vector<NamedTexture> textures(const Technique& technique, const Scene& scene, const FrameRequest& request, Stats& stats,
+                                     Progress& progress) {
+    const Plan made = run(technique, scene, request, {}, stats, progress);
+    std::vector<NamedTexture> taken;
+    for (const Plan::Output& output : made.outputs) {
+      if (output.image.layers > 1) throw InputError("textures: the image " + output.name + " is a layer of one of several");
+      taken.push_back({output.name, backend->take(output.image)});
+    }
+    return taken;
+  }
+
   Images pass(const Technique& technique, const Scene& scene, const FrameRequest& request, Rows rows, Stats& stats,
               Progress& progress) {
     Images images;
     if (technique.plan) {
-      const Plan made = plan(technique, scene, request, rows);
-      seen = camera_key(technique, scene, request);
-      slots = slots.after(scene.lights);
-      images = run_plan(*backend, made, rows, stats, progress);
+      const Plan made = run(technique, scene, request, rows, stats, progress);
+      for (const Plan::Output& output : made.outputs) images.emplace(output.name, image_of(*backend, output, rows));
     } else {
       images = render_reference(scene, request, rows, threads(), stats, progress);
     }
@@ -171,11 +186,22 @@ const HostImage& Frame::image(std::string_view name) const {
   throw std::out_of_range("the frame has no image " + std::string(name));
 }
 
+const std::shared_ptr<GlTexture>& Frame::texture(std::string_view name) const {
+  for (const NamedTexture& t : textures) {
+    if (t.name == name) return t.texture;
+  }
+  throw std::out_of_range("the frame has no texture " + std::string(name));
+}
+
 Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress& progress) {
   const DefaultFloats mode;
   const RenderSettings settings = chosen_for_goal(scene, asked, state_->options).first;
   const Technique& technique = chosen_technique(scene, settings);
   FrameRequest request = request_for(technique, scene, settings);
+  const Rows all{0, request.extent.height};
+  if (settings.textures && !(state_->options.backend == "gl" && state_->options.gl_host && settings.supersample == 1 &&
+                             within(settings.rows, all.end) == all))
+    throw InputError("textures: expected backend gl with a gl_host, one sample a pixel and all rows");
   if (!technique.plan && state_->options.backend != "cpu") {
     throw InputError("technique " + std::string(technique.name) + " runs in double on the CPU, not on backend " +
                      state_->options.backend);
@@ -191,7 +217,9 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
   frame.device = technique.plan ? describe() : "reference, double, " + std::to_string(state_->threads()) + " threads";
 
   Images images;
-  if (settings.supersample == 1) {
+  if (settings.textures) {
+    frame.textures = state_->textures(technique, scene, request, frame.stats, progress);
+  } else if (settings.supersample == 1) {
     images = state_->pass(technique, scene, request, settings.rows, frame.stats, progress);
   } else {
     // beauty stays the float sum of the averaged parts.
@@ -219,6 +247,7 @@ Frame Renderer::render(const Scene& scene, const RenderSettings& asked, Progress
       if (input.step >= 0) input.step += static_cast<int>(made.size());
   }
   frame.stats.steps.insert(frame.stats.steps.begin(), made.begin(), made.end());
+  if (settings.textures) return frame;
   for (const std::string& name : settings.images) {
     auto image = images.extract(name);  // empty where it is asked for again
     frame.images.push_back({name, image ? std::move(image.mapped()) : frame.image(name)});

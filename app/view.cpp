@@ -24,15 +24,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int sources = 3, difference_slot = 3;
+static_assert(difference_slot < ViewPainter::slots);
 
 // What a worker was asked for last.
 struct Asked {
   std::uint64_t number = 0, revision = 0;
   Extent extent;
-  float exposure = 0;
-  friend bool operator==(const Asked& a, const Asked& b) {
-    return a.revision == b.revision && a.extent == b.extent && a.exposure == b.exposure;
-  }
+  friend bool operator==(const Asked& a, const Asked& b) { return a.revision == b.revision && a.extent == b.extent; }
 };
 
 struct Source {
@@ -52,6 +50,7 @@ class Viewer {
         input_(session_, state_),
         panel_(session_, state_, input_) {
     state_.source = c.renderer.backend == "gl" ? ViewSource::gl : ViewSource::cpu;
+    state_.exposure = c.exposure;
     // Tools begin in proportion to what is seen.
     const double size = glm::distance(session_.scene().camera.position, session_.scene().camera.look_at);
     state_.puff.radius = size / 15, state_.puff.extinction = 10 / size;
@@ -112,11 +111,14 @@ class Viewer {
   }
   Extent pane_extent() const { return {static_cast<int>(panes_[0].size.x), static_cast<int>(panes_[0].size.y)}; }
 
+  // Throws MachineError where there is no device for it.
   ViewWorker& worker(int i) {
     Source& s = sources_[static_cast<std::size_t>(i)];
     if (s.worker) return *s.worker;
     RendererOptions o = c_.renderer;
-    o.backend = i == static_cast<int>(ViewSource::gl) ? "gl" : "cpu";
+    const bool gl = i == static_cast<int>(ViewSource::gl);
+    o.backend = gl ? "gl" : "cpu";
+    if (gl && o.gl_context == "window") o.gl_host = window_.render_context();
     const bool reference = i == static_cast<int>(ViewSource::reference);
     // The window keeps a core of its own.
     if (reference && o.threads == 0) o.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
@@ -129,7 +131,7 @@ class Viewer {
       Source& s = sources_[static_cast<std::size_t>(i)];
       if (!shows(i)) continue;
       const bool reference = i == static_cast<int>(ViewSource::reference);
-      Asked asked{next_ + 1, session_.revision(), pane_extent(), state_.exposure};
+      Asked asked{next_ + 1, session_.revision(), pane_extent()};
       if (s.asked && *s.asked == asked) continue;
       // While something moves a slow picture is made coarser, a whole one follows.
       const bool coarse = moving && !reference && s.asked && s.whole_seconds > 0.12;
@@ -143,10 +145,15 @@ class Viewer {
       job.scene = session_.scene();
       job.settings.resolution = asked.extent;
       if (reference) job.settings.technique = "reference";
-      job.exposure = static_cast<double>(state_.exposure);
       job.explain = !reference && !coarse && !moving;
-      worker(i).ask(std::move(job));
       s.asked = asked;
+      try {
+        worker(i).ask(std::move(job));
+      } catch (const MachineError& e) {
+        ViewPicture none;
+        none.number = asked.number, none.error = e.what(), none.complete = true;
+        receive(i, std::move(none));
+      }
     }
   }
 
@@ -158,13 +165,35 @@ class Viewer {
       auto picture = s.worker ? s.worker->take() : std::nullopt;
       if (!picture) continue;
       news = true;
-      if (picture->plan.empty() && s.picture) picture->plan = s.picture->plan;
-      if (picture->error.empty()) window_.set_picture(i, picture->image.extent, picture->display);
-      if (picture->complete && picture->full == pane_extent()) s.whole_seconds = picture->seconds;
-      s.picture = std::move(picture);
+      receive(i, std::move(*picture));
     }
     if (state_.split && (news || state_.difference != difference_)) tell_difference();
     return news;
+  }
+
+  void receive(int i, ViewPicture picture) {
+    Source& s = sources_[static_cast<std::size_t>(i)];
+    const std::string name = view_source_names.at(static_cast<std::size_t>(i));
+    if (picture.plan.empty() && s.picture) picture.plan = s.picture->plan;
+    if (!picture.error.empty()) {
+      if (!s.picture || s.picture->error != picture.error) tell(name + ": " + picture.error);
+    } else {
+      if (!s.picture || s.picture->device != picture.device) terminal_.log(LogLevel::info, name + ": " + told_of(picture));
+      if (picture.texture) {
+        window_.painter().set(i, picture.texture);
+      } else {
+        window_.painter().set(i, picture.image);
+      }
+    }
+    if (picture.complete && picture.full == pane_extent()) s.whole_seconds = picture.seconds;
+    s.picture = std::move(picture);
+  }
+
+  // The picture that is shown, read back where it is a texture.
+  const HostImage& image(int i) {
+    ViewPicture& p = *sources_[static_cast<std::size_t>(i)].picture;
+    if (p.texture && p.image.values.empty()) p.image = window_.painter().read(i);
+    return p.image;
   }
 
   void tell_difference() {
@@ -173,17 +202,17 @@ class Viewer {
     const std::string names = fmt::format("{} - {}", view_source_names.at(static_cast<std::size_t>(pair[0])),
                                           view_source_names.at(static_cast<std::size_t>(pair[1])));
     const auto &a = sources_[static_cast<std::size_t>(pair[0])], &b = sources_[static_cast<std::size_t>(pair[1])];
-    const bool both = whole(a) && whole(b) && a.picture->image.extent == b.picture->image.extent;
+    const bool both = whole(a) && whole(b) && a.picture->extent == b.picture->extent;
     if (!both) return void(difference_text_ = names + ": not yet");
-    const ViewDifference d = difference_of(a.picture->image, b.picture->image);
-    window_.set_picture(difference_slot, a.picture->image.extent, d.display);
+    const ViewDifference d = difference_of(image(pair[0]), image(pair[1]));
+    window_.painter().set(difference_slot, d.shown);
     difference_text_ = names + ": " + d.text;
   }
 
   // The picture is of the scene as it is now.
   bool whole(const Source& s) const {
     return s.picture && s.asked && s.picture->number == s.asked->number && s.picture->complete && s.picture->error.empty() &&
-           s.asked->revision == session_.revision() && s.picture->image.extent == pane_extent();
+           s.asked->revision == session_.revision() && s.picture->extent == pane_extent();
   }
 
   void draw() {
@@ -208,7 +237,7 @@ class Viewer {
 
   void draw_pane(ImDrawList& list, const ViewPane& pane, int slot) {
     const auto at = [](const glm::dvec2& p) { return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y)); };
-    if (void* picture = window_.picture(slot)) list.AddImage(picture, at(pane.low), at(pane.low + pane.size));
+    window_.draw_picture(slot, pane, slot == difference_slot ? 0 : state_.exposure);
     constexpr ImU32 bright = IM_COL32(255, 220, 120, 255), dark = IM_COL32(0, 0, 0, 160);
     list.PushClipRect(at(pane.low), at(pane.low + pane.size));
     const Screen screen(session_.scene().camera);
@@ -268,7 +297,7 @@ class Viewer {
       if (failed) state_.picture_wanted = false;
       if (state_.picture_wanted && !state_.split && whole(shown)) {
         state_.picture_wanted = false;
-        write("picture", shown.picture->image, static_cast<double>(state_.exposure));
+        write("picture", image(static_cast<int>(state_.source)), static_cast<double>(state_.exposure));
       }
       if (state_.window_wanted && window_.pixels().channels > 0 && (failed || state_.split || whole(shown))) {
         state_.window_wanted = false;

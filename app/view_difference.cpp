@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/relative_rmse.h"
-#include "common/scene/tonemap.h"
 
 namespace airlight {
 
@@ -23,8 +23,8 @@ ViewDifference difference_of(const HostImage& a, const HostImage& b) {
   HostImage shown(a.extent, 3);
   for (std::size_t i = 0; i < a.values.size(); ++i)
     shown.values[i] = static_cast<float>(gain / mean) * std::fabs(a.values[i] - b.values[i]);
-  return {tone_mapped(shown, 0, false), fmt::format("relative RMSE {:.2g} %, at most {:.2g} % of the mean, shown {:.0f} times",
-                                                    100 * error.value(), 100 * largest / mean, gain)};
+  return {std::move(shown), fmt::format("relative RMSE {:.2g} %, at most {:.2g} % of the mean, shown {:.0f} times",
+                                        100 * error.value(), 100 * largest / mean, gain)};
 }
 
 }  // namespace airlight

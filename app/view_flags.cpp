@@ -25,11 +25,18 @@ CLI::App* add_view_command(CLI::App& program, ViewCommand& c, std::string& size)
   command->add_option("-o,--output", c.output, "where Ctrl+S saves (default: SCENE_edited.json beside it)");
   command->add_option("--record", c.record, "write every edit to this script");
   command->add_option("--size", size, "WIDTHxHEIGHT of the picture")->capture_default_str();
+  command->add_option("--exposure", c.exposure, "stops, at first")->check(CLI::Range(-8.0F, 8.0F))->capture_default_str();
   command->add_option("--backend", c.renderer.backend, "cpu | gl at first")->capture_default_str();
   command->add_option("--threads", c.renderer.threads, "threads of the CPU, 0: as many as there are")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--gl-context", c.renderer.gl_context, "auto | osmesa | egl")->capture_default_str();
+  c.renderer.gl_context = "window";
+  command
+      ->add_option(
+          "--gl-context", c.renderer.gl_context,
+          "window | auto | osmesa | egl; window is OpenGL 4.5 of the window system, whose pictures are drawn directly; those of "
+          "all others are read back")
+      ->capture_default_str();
   command->footer(examples);
   return command;
 }

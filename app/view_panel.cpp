@@ -42,6 +42,8 @@ std::string command_line(const ViewSession& session, const ViewState& state, Ext
   return line;
 }
 
+std::string told_of(const ViewPicture& p) { return p.device + (p.texture ? ", drawn directly" : ""); }
+
 void ViewPanel::attempt(const Edit& edit) {
   try {
     session_.attempt(edit);
@@ -249,10 +251,10 @@ void ViewPanel::costs(const ViewReport& report) {
       ImGui::TextWrapped("%s: %s", name.c_str(), p->error.c_str());
       continue;
     }
-    ImGui::TextWrapped("%s: %.1f ms at %d x %d%s", name.c_str(), 1e3 * p->seconds, p->image.extent.width, p->image.extent.height,
+    ImGui::TextWrapped("%s: %.1f ms at %d x %d%s", name.c_str(), 1e3 * p->seconds, p->extent.width, p->extent.height,
                        report.busy[i] ? " ..." : "");
     if (i == static_cast<std::size_t>(ViewSource::reference)) continue;
-    ImGui::TextWrapped("%s on %s", p->technique.c_str(), p->device.c_str());
+    ImGui::TextWrapped("%s on %s", p->technique.c_str(), told_of(*p).c_str());
     for (const StepStats& s : p->stats.steps) {
       ImGui::TextDisabled("  %-26s %s", s.name.c_str(), s.reused ? "reused" : fmt::format("{:8.2f} ms", 1e3 * s.seconds).c_str());
     }

@@ -47,6 +47,9 @@ class ViewPanel {
   std::vector<std::pair<std::string, std::string>> knobs_;
 };
 
+// What made the picture, and that it never was on the host.
+std::string told_of(const ViewPicture&);
+
 // The command that renders what is seen.
 std::string command_line(const ViewSession&, const ViewState&, Extent);
 

@@ -1,5 +1,6 @@
 #include "app/view_window.h"
 
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
@@ -7,46 +8,51 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <optional>
 #include <utility>
 
 namespace airlight {
 
 namespace {
 
-std::string last_error;  // GLFW's callback has no place of its own
+// GLFW's last in this thread.
+std::string last_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "no reason told";
+}
 
-// OpenGL by GLFW, so that nothing else of the program needs its library.
-struct Functions {
-  decltype(&glGenTextures) gen_textures;
-  decltype(&glDeleteTextures) delete_textures;
-  decltype(&glBindTexture) bind_texture;
-  decltype(&glTexParameteri) tex_parameter;
-  decltype(&glTexImage2D) tex_image;
-  decltype(&glPixelStorei) pixel_store;
-  decltype(&glViewport) viewport;
-  decltype(&glClearColor) clear_color;
-  decltype(&glClear) clear;
-  decltype(&glReadPixels) read_pixels;
-  decltype(&glReadBuffer) read_buffer;
-};
+WindowGl loaded() {
+  const auto entry = [](const char* name) {
+    const GLFWglproc found = glfwGetProcAddress(name);
+    if (found == nullptr) throw MachineError(std::string("the window's OpenGL has no ") + name);
+    return found;
+  };
+  WindowGl gl;
+#define AIRLIGHT_WINDOW_GL_LOAD(name, NAME) gl.name = reinterpret_cast<PFNGL##NAME##PROC>(entry("gl" #name));
+  AIRLIGHT_WINDOW_GL(AIRLIGHT_WINDOW_GL_LOAD)
+#undef AIRLIGHT_WINDOW_GL_LOAD
+  return gl;
+}
 
-template <class F>
-void load(F& function, const char* name) {
-  function = reinterpret_cast<F>(glfwGetProcAddress(name));
-  if (!function) throw MachineError(std::string("the window's OpenGL has no ") + name);
+void ask_for_core(int major, int minor) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
 }
 
 }  // namespace
 
 struct ViewWindow::State {
-  GLFWwindow* window = nullptr;
+  GLFWwindow *window = nullptr, *renders = nullptr;  // the second is never seen
   bool imgui = false;
-  Functions gl{};
-  std::array<GLuint, 4> textures{};
-  std::array<bool, 4> filled{};
+  WindowGl gl;
+  std::optional<ViewPainter> painter;
   std::vector<ViewEvent> events;
   HostImage pixels;
 
@@ -73,8 +79,7 @@ struct ViewWindow::State {
       ImGui_ImplGlfw_Shutdown();
       ImGui::DestroyContext();
     }
-    if (window) glfwDestroyWindow(window);
-    glfwTerminate();
+    glfwTerminate();  // all windows with it
   }
 };
 
@@ -83,9 +88,9 @@ void ViewWindow::State::keep() {
   glfwGetFramebufferSize(window, &extent.width, &extent.height);
   HostImage image(extent, 3);
   std::vector<std::uint8_t> bytes(image.values.size());
-  gl.pixel_store(GL_PACK_ALIGNMENT, 1);
-  gl.read_buffer(GL_BACK);
-  gl.read_pixels(0, 0, extent.width, extent.height, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.ReadBuffer(GL_BACK);
+  gl.ReadPixels(0, 0, extent.width, extent.height, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
   for (int y = 0; y < extent.height; ++y) {
     for (int x = 0; x < extent.width; ++x) {
       for (int c = 0; c < 3; ++c) {
@@ -98,23 +103,16 @@ void ViewWindow::State::keep() {
 }
 
 ViewWindow::ViewWindow(const std::string& title, Extent extent) : state_(std::make_unique<State>()) {
-  glfwSetErrorCallback([](int, const char* text) { last_error = text; });
-  if (glfwInit() != GLFW_TRUE) throw MachineError("no display for a window: " + last_error);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  if (glfwInit() != GLFW_TRUE) throw MachineError("no display for a window: " + last_error());
+  ask_for_core(3, 2);
   GLFWwindow* w = glfwCreateWindow(extent.width, extent.height, title.c_str(), nullptr, nullptr);
-  if (!w) throw MachineError("no window with OpenGL 3.2: " + last_error);
+  if (!w) throw MachineError("no window with OpenGL 3.2: " + last_error());
   State& s = *state_;
   s.window = w;
   glfwMakeContextCurrent(w);
   glfwSwapInterval(1);
-  load(s.gl.gen_textures, "glGenTextures"), load(s.gl.delete_textures, "glDeleteTextures");
-  load(s.gl.bind_texture, "glBindTexture"), load(s.gl.tex_parameter, "glTexParameteri");
-  load(s.gl.tex_image, "glTexImage2D"), load(s.gl.pixel_store, "glPixelStorei");
-  load(s.gl.viewport, "glViewport"), load(s.gl.clear_color, "glClearColor"), load(s.gl.clear, "glClear");
-  load(s.gl.read_pixels, "glReadPixels"), load(s.gl.read_buffer, "glReadBuffer");
+  s.gl = loaded();
+  s.painter.emplace(s.gl);
 
   // Before ImGui's, which hand on to these.
   glfwSetWindowUserPointer(w, &s);
@@ -130,7 +128,6 @@ ViewWindow::ViewWindow(const std::string& title, Extent extent) : state_(std::ma
   ImGui_ImplGlfw_InitForOpenGL(w, true);
   ImGui_ImplOpenGL3_Init("#version 150");
   s.imgui = true;
-  s.gl.gen_textures(static_cast<GLsizei>(s.textures.size()), s.textures.data());
 }
 
 ViewWindow::~ViewWindow() = default;
@@ -153,39 +150,51 @@ Extent ViewWindow::extent() const {
 void ViewWindow::title(const std::string& text) { glfwSetWindowTitle(state_->window, text.c_str()); }
 void ViewWindow::copy(const std::string& text) { glfwSetClipboardString(state_->window, text.c_str()); }
 
+GlHost ViewWindow::render_context() {
+  State& s = *state_;
+  if (!s.renders) {
+    ask_for_core(4, 5);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    s.renders = glfwCreateWindow(1, 1, "", nullptr, s.window);
+    if (!s.renders)
+      throw MachineError("the window system has no OpenGL 4.5 core context (" + last_error() +
+                         "); --gl-context auto renders in another");
+  }
+  const auto make_current = [w = s.renders] {
+    glfwMakeContextCurrent(w);
+    if (glfwGetCurrentContext() != w) throw MachineError("the window system's OpenGL 4.5 cannot be used: " + last_error());
+  };
+  return {make_current, [] { glfwMakeContextCurrent(nullptr); }, glfwGetProcAddress};
+}
+
+ViewPainter& ViewWindow::painter() { return *state_->painter; }
+
 void ViewWindow::begin_frame() {
+  const State& s = *state_;
+  s.gl.ClearColor(0.1F, 0.1F, 0.1F, 1);
+  s.gl.Clear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
 }
 
+void ViewWindow::draw_picture(int slot, const ViewPane& pane, float exposure) {
+  const State& s = *state_;
+  Extent pixels;
+  glfwGetFramebufferSize(s.window, &pixels.width, &pixels.height);
+  const Extent size = extent();
+  const glm::dvec2 scale(static_cast<double>(pixels.width) / std::max(size.width, 1),
+                         static_cast<double>(pixels.height) / std::max(size.height, 1));
+  const glm::ivec2 low(glm::round(scale * pane.low)), high(glm::round(scale * (pane.low + pane.size)));
+  s.painter->draw(slot, {low.x, pixels.height - high.y, high.x - low.x, high.y - low.y}, exposure);
+}
+
 void ViewWindow::end_frame(bool keeps) {
   State& s = *state_;
   ImGui::Render();
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(s.window, &width, &height);
-  s.gl.viewport(0, 0, width, height);
-  s.gl.clear_color(0.1F, 0.1F, 0.1F, 1);
-  s.gl.clear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());  // in all of the window
   if (keeps) s.keep();
   glfwSwapBuffers(s.window);
-}
-
-void ViewWindow::set_picture(int slot, Extent extent, const std::vector<std::uint8_t>& rgb) {
-  State& s = *state_;
-  const auto i = static_cast<std::size_t>(slot);
-  s.gl.bind_texture(GL_TEXTURE_2D, s.textures.at(i));
-  s.gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  s.gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  s.gl.pixel_store(GL_UNPACK_ALIGNMENT, 1);
-  s.gl.tex_image(GL_TEXTURE_2D, 0, GL_RGB8, extent.width, extent.height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
-  s.filled.at(i) = true;
-}
-
-void* ViewWindow::picture(int slot) const {
-  const auto i = static_cast<std::size_t>(slot);
-  return state_->filled.at(i) ? reinterpret_cast<void*>(static_cast<std::uintptr_t>(state_->textures.at(i))) : nullptr;
 }
 
 const HostImage& ViewWindow::pixels() const { return state_->pixels; }

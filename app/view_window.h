@@ -1,13 +1,13 @@
-// The window: GLFW's, its OpenGL context, Dear ImGui in it, and textures to show pictures by.
+// The window: GLFW's, its OpenGL context, Dear ImGui in it, and pictures below that.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/airlight.h"
 #include "app/view_input.h"
+#include "app/view_painter.h"
 
 struct GLFWwindow;
 
@@ -30,13 +30,16 @@ class ViewWindow {
   void title(const std::string&);
   void copy(const std::string& text);
 
-  void begin_frame();
-  // Draws what ImGui was told and shows it; `keeps`: for pixels().
-  void end_frame(bool keeps);
+  // An OpenGL 4.5 core context that shares objects with the window's, for one renderer in any thread; it lives as long as the
+  // window. Throws MachineError in one line where the window system has none.
+  GlHost render_context();
+  // What it makes and what is on the host; only between frames.
+  ViewPainter& painter();
 
-  // What ImGui draws as a picture: three bytes a pixel, rows from the top. `slot` is 0 to 3.
-  void set_picture(int slot, Extent, const std::vector<std::uint8_t>&);
-  void* picture(int slot) const;  // an ImTextureID; null before the first
+  void begin_frame();
+  void draw_picture(int slot, const ViewPane&, float exposure);
+  // Draws what ImGui was told and shows all that; `keeps`: for pixels().
+  void end_frame(bool keeps);
 
   // The frame that was kept last, linear, for write_image().
   const HostImage& pixels() const;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/scene/tonemap.h"
-
 namespace airlight {
 
 namespace {
@@ -101,14 +99,19 @@ void ViewWorker::render(Renderer& renderer, const ViewJob& job) {
     if (!refines_ && share > 1) continue;
     RenderSettings settings = job.settings;
     settings.resolution = Extent{std::max(1, full.width / share), std::max(1, full.height / share)};
+    settings.textures = options_.gl_host.has_value();
     const auto begin = Clock::now();
     Frame frame = renderer.render(job.scene, settings, progress);
     ViewPicture picture;
     picture.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     picture.number = job.number;
     picture.full = full;
-    picture.image = std::move(frame.images.front().image);
-    picture.display = tone_mapped(picture.image, job.exposure, false);
+    picture.extent = *settings.resolution;
+    if (settings.textures) {
+      picture.texture = frame.texture("beauty");
+    } else {
+      picture.image = std::move(frame.images.front().image);
+    }
     picture.stats = std::move(frame.stats);
     picture.technique = frame.technique, picture.device = frame.device;
     if (job.explain) picture.plan = explain(job.scene, job.settings);

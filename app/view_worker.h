@@ -6,11 +6,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "app/airlight.h"
 
@@ -21,15 +21,14 @@ struct ViewJob {
   std::uint64_t number = 0;  // rising
   Scene scene;
   RenderSettings settings;  // with a resolution
-  double exposure = 0;      // [stops]
   bool explain = false;     // also the plan
 };
 
 struct ViewPicture {
-  std::uint64_t number = 0;           // of its job
-  HostImage image;                    // linear
-  Extent full;                        // the resolution asked for, of which this may be a coarser preview
-  std::vector<std::uint8_t> display;  // tone-mapped, three bytes a pixel
+  std::uint64_t number = 0;            // of its job
+  Extent extent, full;                 // its resolution; the one asked for, of which this may be a coarser preview
+  HostImage image;                     // linear; empty where there is a texture, until somebody reads it
+  std::shared_ptr<GlTexture> texture;  // of a renderer in the window's OpenGL
   Stats stats;
   std::string technique, device;
   std::string plan;       // what explain() says, where asked for

@@ -1,19 +1,26 @@
-// What the viewer takes for a picture while its user drags something: the table of docs/viewer.md.
+// What the viewer takes for a picture while its user drags something, until the window shows it: the table of docs/viewer.md.
 //   airlight-viewer SCENE...
-// CPU time of the process over two threads, tone mapping with it, the least of five pictures [ms], so that other work counts
-// little; and wall time, which is the same where nothing else runs.
+// By the CPU, by OpenGL whose pictures are read back, by that of the window, a picture of each in turn. CPU time of the process
+// over two threads, the least of five pictures [ms], so that other work counts little; and wall time, which is the same where
+// nothing else runs.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <ctime>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/view_camera.h"
 #include "app/view_session.h"
+#include "app/view_window.h"
 #include "app/view_worker.h"
 
 namespace airlight {
@@ -29,21 +36,37 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Asks a worker and waits for its picture.
-class Pictures {
+// A renderer whose pictures are shown in the window, from the question to the frame with its answer.
+class Way {
  public:
-  Pictures() : worker_({.backend = "cpu", .threads = threads}, false, [this] { ready(); }) {}
+  Way(std::string name, ViewWindow& window, RendererOptions options)
+      : name_(std::move(name)), window_(window), worker_(std::move(options), false, [this] { ready(); }) {}
 
-  ViewPicture of(const Scene& scene) {
+  const std::string& name() const { return name_; }
+
+  // An error, or nothing.
+  std::string show(const Scene& scene) {
     ViewJob job;
     job.number = ++number_;
     job.scene = scene;
     job.settings.resolution = extent;
     worker_.ask(std::move(job));
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return ready_; });
-    ready_ = false;
-    return *worker_.take();
+    {
+      std::unique_lock lock(mutex_);
+      done_.wait(lock, [this] { return ready_; });
+      ready_ = false;
+    }
+    const ViewPicture p = *worker_.take();
+    if (!p.error.empty()) return p.error;
+    if (p.texture) {
+      window_.painter().set(0, p.texture);
+    } else {
+      window_.painter().set(0, p.image);
+    }
+    window_.begin_frame();
+    window_.draw_picture(0, {{0, 0}, {extent.width, extent.height}}, 0);
+    window_.end_frame(false);
+    return {};
   }
 
  private:
@@ -55,6 +78,8 @@ class Pictures {
     done_.notify_one();
   }
 
+  std::string name_;
+  ViewWindow& window_;
   std::mutex mutex_;
   std::condition_variable done_;
   bool ready_ = false;
@@ -62,31 +87,40 @@ class Pictures {
   ViewWorker worker_;  // last: it uses all of the above
 };
 
-// "62 (64)", or "-" where the scene takes no such edit.
-std::string measured(ViewSession& session, Pictures& from, const std::function<void(int)>& edit) {
+struct Times {
   double cpu = 0, wall = 0;
+  std::string refused;
+};
+
+// Of each way, which take turns; nothing where the scene takes no such edit.
+std::vector<Times> measured(ViewSession& session, std::deque<Way>& ways, const std::function<void(int)>& edit) {
+  std::vector<Times> least(ways.size());
   for (int i = 0; i < pictures; ++i) {
     try {
       edit(i);
     } catch (const InputError&) {
-      return "-";
+      return {};
     }
-    const double began = cpu_seconds();
-    const ViewPicture p = from.of(session.scene());
-    if (!p.error.empty()) return "refused";
-    const double c = (cpu_seconds() - began) / threads;
-    cpu = i == 0 ? c : std::min(cpu, c), wall = i == 0 ? p.seconds : std::min(wall, p.seconds);
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      Times& t = least[k];
+      const double began = cpu_seconds();
+      const auto clock = std::chrono::steady_clock::now();
+      t.refused = ways[k].show(session.scene());
+      const double cpu = (cpu_seconds() - began) / threads;
+      const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+      t.cpu = i == 0 ? cpu : std::min(t.cpu, cpu), t.wall = i == 0 ? wall : std::min(t.wall, wall);
+    }
   }
-  return fmt::format("{:.0f} ({:.0f})", 1e3 * cpu, 1e3 * wall);
+  return least;
 }
 
-void measure(const std::string& path) {
+void measure(const std::string& path, std::deque<Way>& ways) {
   NoProgress none;
   ViewSession session(path, "", "", none);
-  Pictures from;
-  from.of(session.scene());  // the first makes what all others keep
-  const std::string camera = measured(session, from, [&](int) { session.look(orbited(session.scene().camera, {0.02, 0.01})); });
-  const std::string light = measured(session, from, [&](int i) {
+  for (Way& way : ways) way.show(session.scene());  // the first makes what all others keep
+  std::vector<std::vector<Times>> edits;
+  edits.push_back(measured(session, ways, [&](int) { session.look(orbited(session.scene().camera, {0.02, 0.01})); }));
+  edits.push_back(measured(session, ways, [&](int i) {
     if (session.scene().lights.empty()) throw InputError("no light");
     const LightSource& l = session.scene().lights.front();
     LightEdit e{l.name.empty() ? "0" : l.name, {}, {}, {}};
@@ -94,14 +128,27 @@ void measure(const std::string& path) {
     if (l.type == LightType::point) e.position = l.position + step;
     if (l.type == LightType::directional) e.direction = l.direction + step;
     session.apply(e);
-  });
-  const std::string paint = measured(session, from, [&](int i) {
+  }));
+  edits.push_back(measured(session, ways, [&](int i) {
     PaintEdit e;
     e.stroke.points = {session.scene().camera.look_at};
     e.puff.radius = 0.2, e.puff.extinction = 1, e.seed = i;
     session.apply(e);
-  });
-  fmt::print("| {} | {} | {} | {} |\n", std::filesystem::path(path).stem().string(), camera, light, paint);
+  }));
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    fmt::print("| {}, {} |", std::filesystem::path(path).stem().string(), ways[k].name());
+    for (const std::vector<Times>& t : edits) {
+      if (t.empty()) {
+        fmt::print(" - |");
+      } else if (!t[k].refused.empty()) {
+        fmt::print(" refused |");
+      } else {
+        fmt::print(" {:.1f} ({:.1f}) |", 1e3 * t[k].cpu, 1e3 * t[k].wall);
+      }
+    }
+    fmt::print("\n");
+  }
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -110,8 +157,17 @@ void measure(const std::string& path) {
 
 int main(int argc, char** argv) {
   try {
+    using namespace airlight;
+    ViewWindow window("airlight-viewer", extent);
+    std::deque<Way> ways;
+    ways.emplace_back("CPU", window, RendererOptions{.backend = "cpu", .threads = threads});
+    const bool gl = argc > 1 && std::string_view(argv[1]) == "--gl";
+    if (gl) {
+      ways.emplace_back("OpenGL, read back", window, RendererOptions{.backend = "gl"});
+      ways.emplace_back("OpenGL, drawn directly", window, RendererOptions{.backend = "gl", .gl_host = window.render_context()});
+    }
     fmt::print("| scene | camera moves | a light moves | a Gaussian is painted |\n|---|---|---|---|\n");
-    for (int i = 1; i < argc; ++i) airlight::measure(argv[i]);
+    for (int i = gl ? 2 : 1; i < argc; ++i) measure(argv[i], ways);
     return 0;
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());

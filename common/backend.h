@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "common/algorithms/algorithm.h"
+#include "common/gl_host.h"
 #include "common/progress.h"
 #include "common/rows.h"
 #include "common/stats.h"
@@ -42,6 +45,10 @@ class Backend {
 
   // Copies a buffer back that a step has made.
   virtual void download(const Buffer&, std::span<std::byte>) = 0;
+
+  // Hands a kept image of all rows over to the GlHost, and holds it no more. Throws std::logic_error where there is no such
+  // texture.
+  virtual std::shared_ptr<GlTexture> take(const Image&) { throw std::logic_error("only OpenGL has textures"); }
 
   // [byte] at most of the images, and of the buffers made by steps, that run() will hold; nothing is allocated.
   virtual std::uint64_t bytes_for(std::span<const Step>, Rows wanted) const = 0;

@@ -22,12 +22,14 @@ class GlBackend final : public Backend {
   explicit GlBackend(const GlOptions& options) : context_(make_context(options)) {
     const GlContext::Current current(*context_);
     runner_ = std::make_unique<StepRunner>(*context_);
+    taken_ = std::make_unique<TakenTextures>(context_->gl());
     context_->gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
     context_->gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   }
   ~GlBackend() override {
     const GlContext::Current current(*context_);
     runner_.reset();
+    taken_.reset();
   }
 
   std::string describe() const override { return "gl, " + context_->describe(); }
@@ -74,6 +76,16 @@ class GlBackend final : public Backend {
     std::copy_n(content.begin(), std::min(content.size(), bytes.size()), bytes.begin());
   }
 
+  std::shared_ptr<GlTexture> take(const Image& image) override {
+    const GlContext::Current current(*context_);
+    const auto held = runner_->images.find(image);
+    if (held == runner_->images.end() || held->second.key == 0) throw std::logic_error("a texture: nothing is held");
+    if (!(held->second.texture->shape() == shape_of(image, Rows{}))) throw std::logic_error("a texture: not all rows are held");
+    std::shared_ptr<GlTexture> taken = taken_->take(std::move(held->second.texture));
+    runner_->images.erase(held);
+    return taken;
+  }
+
   void run(std::span<const Step>, Rows wanted, Stats&, Progress&) override;
 
   // As if no texture were used twice.
@@ -88,7 +100,7 @@ class GlBackend final : public Backend {
   }
 
   std::uint64_t held_bytes() const override {
-    std::uint64_t bytes = runner_->pool().bytes();
+    std::uint64_t bytes = runner_->pool().bytes() + taken_->bytes();
     for (const auto& [handle, held] : runner_->images) bytes += held.texture ? bytes_of(held.texture->shape()) : 0;
     for (const auto& [handle, held] : runner_->buffers) bytes += held.buffer ? held.buffer->bytes() : 0;
     return bytes;
@@ -103,6 +115,7 @@ class GlBackend final : public Backend {
 
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<StepRunner> runner_;
+  std::unique_ptr<TakenTextures> taken_;
 };
 
 std::uint64_t GlBackend::upload_key(Handle h) const {
@@ -163,6 +176,7 @@ void GlBackend::release_transients() {
 void GlBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Progress& progress) {
   const GlContext::Current current(*context_);
   const Clock::time_point start = Clock::now();
+  for (std::unique_ptr<Texture>& texture : taken_->come_back()) runner_->pool().give(std::move(texture));
   const std::vector<StepRows> rows = rows_of(steps, wanted, granule);
   const std::vector<std::uint64_t> keys = step_keys(
       steps, [&](Handle h) { return upload_key(h); }, rows);

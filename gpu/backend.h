@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/backend.h"
@@ -9,8 +10,9 @@
 namespace airlight {
 
 struct GlOptions {
-  std::string context = "auto";  // auto | osmesa | egl. auto: EGL on the first hardware device where there is one, else OSMesa
-  int device = 0;                // which EGL device, in the order of its enumeration; other than 0 means EGL for auto
+  std::string context = "auto";     // auto | osmesa | egl. auto: EGL on the first hardware device where there is one, else OSMesa
+  int device = 0;                   // which EGL device, in the order of its enumeration; other than 0 means EGL for auto
+  std::optional<GlHost> host = {};  // in place of both
 };
 
 // Throws InputError for an unknown name, MachineError naming in one line what the machine lacks. Falls back nowhere but in

@@ -44,7 +44,29 @@ void GlContext::load(Resolve resolve, const std::string& kind) {
   description_ = renderer + ", " + told(GL_VENDOR) + ", OpenGL " + told(GL_VERSION) + ", " + kind;
 }
 
+namespace {
+
+class HostContext final : public GlContext {
+ public:
+  explicit HostContext(const GlHost& host) : host_(host) {
+    const Current current(*this);
+    load(host_.resolve, "shared");
+  }
+
+ protected:
+  void make_current() override { host_.make_current(); }
+  void release() override { host_.release(); }
+
+ private:
+  GlHost host_;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> make_host_context(const GlHost& host) { return std::make_unique<HostContext>(host); }
+
 std::unique_ptr<GlContext> make_context(const GlOptions& options) {
+  if (options.host) return make_host_context(*options.host);
   if (options.context == "osmesa") {
     if (options.device != 0)
       throw MachineError("OSMesa has one device, number 0; device " + std::to_string(options.device) + " was asked for");

@@ -1,4 +1,4 @@
-// An OpenGL 4.5 core context without a window or a display.
+// An OpenGL 4.5 core context without a window or a display, or the host's.
 #pragma once
 
 #include <memory>
@@ -57,7 +57,8 @@ std::unique_ptr<GlContext> make_context(const GlOptions&);
 // Throws MachineError if GL has recorded an error since the last call; `what` names the work.
 void check_gl(const GlFunctions&, const char* what);
 
-// The two makers behind make_context().
+// The makers behind make_context().
+std::unique_ptr<GlContext> make_host_context(const GlHost&);
 std::unique_ptr<GlContext> make_osmesa_context();
 // hardware_only: the first device that is hardware, or null where there is none; `device` is not looked at then.
 std::unique_ptr<GlContext> make_egl_context(int device, bool hardware_only);

@@ -29,6 +29,7 @@
   X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                     \
   X(DeleteProgram, DELETEPROGRAM)                               \
   X(DeleteShader, DELETESHADER)                                 \
+  X(DeleteSync, DELETESYNC)                                     \
   X(DeleteTextures, DELETETEXTURES)                             \
   X(DeleteVertexArrays, DELETEVERTEXARRAYS)                     \
   X(DepthFunc, DEPTHFUNC)                                       \
@@ -39,7 +40,9 @@
   X(DrawElements, DRAWELEMENTS)                                 \
   X(Enable, ENABLE)                                             \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)           \
+  X(FenceSync, FENCESYNC)                                       \
   X(Finish, FINISH)                                             \
+  X(Flush, FLUSH)                                               \
   X(GetError, GETERROR)                                         \
   X(GetIntegerv, GETINTEGERV)                                   \
   X(GetInteger64v, GETINTEGER64V)                               \
@@ -76,7 +79,8 @@
   X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)           \
   X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)         \
   X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)           \
-  X(Viewport, VIEWPORT)
+  X(Viewport, VIEWPORT)                                         \
+  X(WaitSync, WAITSYNC)
 
 namespace airlight {
 

@@ -73,6 +73,44 @@ void TexturePool::trim() {
   for (Free& f : free_) f.fresh = false;
 }
 
+TakenTextures::~TakenTextures() { come_back(); }
+
+std::shared_ptr<GlTexture> TakenTextures::take(std::unique_ptr<Texture> texture) {
+  auto handed = std::make_unique<GlTexture>();
+  handed->name = texture->name(), handed->extent = texture->shape().extent;
+  taken_.push_back(std::move(texture));
+  handed->made = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl_.Flush();  // without it, who waits for the fence may wait for ever
+  return {handed.release(), [back = back_](GlTexture* t) {
+            const std::lock_guard lock(back->mutex);
+            back->textures.push_back(*t);
+            delete t;
+          }};
+}
+
+std::vector<std::unique_ptr<Texture>> TakenTextures::come_back() {
+  std::vector<GlTexture> back;
+  {
+    const std::lock_guard lock(back_->mutex);
+    back.swap(back_->textures);
+  }
+  std::vector<std::unique_ptr<Texture>> free;
+  for (const GlTexture& t : back) {
+    if (t.read != nullptr) gl_.WaitSync(static_cast<GLsync>(t.read), 0, GL_TIMEOUT_IGNORED);
+    for (void* fence : {t.made, t.read}) gl_.DeleteSync(static_cast<GLsync>(fence));
+    const auto found = std::find_if(taken_.begin(), taken_.end(), [&](const auto& mine) { return mine->name() == t.name; });
+    free.push_back(std::move(*found));
+    taken_.erase(found);
+  }
+  return free;
+}
+
+std::size_t TakenTextures::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& texture : taken_) sum += bytes_of(texture->shape());
+  return sum;
+}
+
 GlBuffer::GlBuffer(const GlFunctions& gl) : gl_(gl) { gl_.CreateBuffers(1, &name_); }
 
 GlBuffer::~GlBuffer() { gl_.DeleteBuffers(1, &name_); }

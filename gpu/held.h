@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/gl_host.h"
 #include "common/image.h"
 #include "common/rows.h"
 #include "gpu/functions.h"
@@ -77,6 +79,28 @@ class PooledTexture {
  private:
   TexturePool& pool_;
   std::unique_ptr<Texture> texture_;
+};
+
+// Textures that the host reads. They stay this one's; the host may let go of them in any thread, and when this is gone.
+class TakenTextures {
+ public:
+  explicit TakenTextures(const GlFunctions& gl) : gl_(gl) {}
+  ~TakenTextures();
+  TakenTextures(const TakenTextures&) = delete;
+  TakenTextures& operator=(const TakenTextures&) = delete;
+  std::shared_ptr<GlTexture> take(std::unique_ptr<Texture>);
+  // Those that the host has let go of; what is done to them is done after the host has read them.
+  std::vector<std::unique_ptr<Texture>> come_back();
+  std::size_t bytes() const;
+
+ private:
+  struct Back {
+    std::mutex mutex;
+    std::vector<GlTexture> textures;
+  };
+  const GlFunctions& gl_;
+  std::shared_ptr<Back> back_ = std::make_shared<Back>();
+  std::vector<std::unique_ptr<Texture>> taken_;
 };
 
 class GlBuffer {
