@@ -10,6 +10,7 @@
 #include "app/plan_tree.h"
 #include "app/request.h"
 #include "app/supersample.h"
+#include "common/plan/even_airlight.h"
 #include "common/plan/geometry.h"
 #include "common/plan/hash.h"
 #include "common/plan/keys.h"
@@ -356,6 +357,20 @@ void add_tiles_without_planes(const Plan& plan, std::vector<SkipStats>& skips) {
   }
 }
 
+// What the CPU computes once for all rays of a length in a tile.
+void add_even_airlight(const Plan& plan, std::vector<SkipStats>& skips) {
+  const auto even = [](const auto& a) {
+    using Step = std::remove_cvref_t<decltype(a)>;
+    if constexpr (std::is_same_v<Step, RayMarch> || std::is_same_v<Step, HomogeneousAirlight>) return has_even_fog(a);
+    return false;
+  };
+  if (std::any_of(plan.steps.begin(), plan.steps.end(), [&](const Step& step) { return std::visit(even, step.what); })) {
+    skips.push_back({std::string(name_of(Rule::even_airlight)),
+                     "airlight of rays through fog that are as long as others of a tile",
+                     "on the CPU: nothing in it hangs on where they go"});
+  }
+}
+
 using MakePlan = std::function<Plan(const Technique&, const Scene&, const FrameRequest&)>;
 using Held = std::function<bool(Handle, std::uint64_t key)>;
 
@@ -371,6 +386,7 @@ std::string explained(const Scene& scene, const RenderSettings& asked, const Ren
   const Plan plan = make_plan(technique, scene, request);
   Stats stats = planned_stats(plan, steps_to_run(plan, held));
   add_tiles_without_planes(plan, stats.skips);
+  add_even_airlight(plan, stats.skips);
   text += "steps\n" + plan_tree(stats, false);
   if (!stats.skips.empty()) text += "left out\n" + left_out(stats);
   return text;

@@ -7,6 +7,8 @@
 #include "cpu/simd.h"
 //
 #include "cpu/pixel_rays.h"
+//
+#include "cpu/known_ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace airlight::HWY_NAMESPACE {
@@ -14,7 +16,10 @@ namespace airlight::HWY_NAMESPACE {
 static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& view) {
   const float* distance = view.plane(a.distance);
   const float* tables = a.tables ? view.floats(a.tables) : nullptr;
+  KnownRay known;
+  known.possible = has_even_fog(a);
   for (int i = 0; i < tile_pixels; i += lanes) {
+    if (store_known(a, view, known, distance, i)) continue;
     const Real length = ray_length(load(distance + i), a.sky_distance);
     const Real tau = optical_depth(length, a.extinction);
     const Real3 d = pixel_rays(a.view, view.tile, i);
@@ -37,6 +42,7 @@ static void homogeneous_airlight(const HomogeneousAirlight& a, const TileView& v
       }
     }
     for (int c = 0; c < 3; ++c) store(sum[c], view.plane(a.airlight, c) + i);
+    keep_known(a, view, known, distance, i);
   }
 }
 

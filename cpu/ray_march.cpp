@@ -11,6 +11,8 @@
 //
 #include "cpu/pixel_rays.h"
 //
+#include "cpu/known_ray.h"
+//
 #include "cpu/lit_rays.h"
 #include "cpu/medium.h"
 
@@ -287,6 +289,8 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
   const float* distance = view.plane(a.distance);
   March march(a, view, LitRays(lit, lit_scratch), scratch.resize(a.lights.size() * floats_a_light));
   StepCounts counts;
+  KnownRay known;
+  known.possible = lit.empty() && has_even_fog(a);
   for (int i = 0; i < tile_pixels; i += lanes) {
     const Real length = ray_length(load(distance + i), a.sky_distance), end = min(length, 1e15);
     const int pixels = view.in_image(i, lanes);
@@ -295,20 +299,25 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
       counts.skipped += static_cast<std::uint64_t>(pixels);
       continue;
     }
-    march.begin(i, pixel_rays(a.view, view.tile, i));
-    Real behind = 0.0;  // of Gaussians and grid
+    const Real3 d = pixel_rays(a.view, view.tile, i);
+    Stretch inside{0.0, 0.0};  // Gaussians and grid
     if (march.medium.any()) {
       const Real3 camera{0.0, 0.0, 0.0};
-      Stretch inside = stretch_of(a.gaussians, camera, march.d, end);
+      inside = stretch_of(a.gaussians, camera, d, end);
       if (a.grid) {
-        const Stretch box = march.medium.grid.stretch(camera, march.d, end);
+        const Stretch box = march.medium.grid.stretch(camera, d, end);
         const Mask meets = box.begin < box.end;
         inside.begin = select(meets, min(inside.begin, box.begin), inside.begin);
         inside.end = select(meets, max(inside.end, box.end), inside.end);
       }
-      const Mask meets = inside.begin < inside.end;
-      inside.begin = select(meets, inside.begin, 0.0);
-      behind = select(meets, inside.end, 0.0);
+    }
+    const Mask meets = inside.begin < inside.end;
+    const bool fog_alone = !any_lane(meets);
+    if (fog_alone && store_known(a, view, known, distance, i)) continue;
+    inside.begin = select(meets, inside.begin, 0.0);
+    const Real behind = select(meets, inside.end, 0.0);
+    march.begin(i, d);
+    if (march.medium.any()) {
       march.stretch(0.0, inside.begin, false);
       march.stretch(inside.begin, behind, true);
     }
@@ -323,6 +332,7 @@ static void ray_march(const RayMarch& a, const TileView& view, std::span<const L
     for (int c = 0; c < 3; ++c) store(fma(source, a.ambient[c], march.sum[c]), view.plane(a.airlight, c) + i);
     store(through, view.plane(a.transmittance) + i);
     if (a.optical_depth) store(min(tau, 1e30), view.plane(a.optical_depth) + i);
+    if (fog_alone) keep_known(a, view, known, distance, i);
   }
   view.counts->add(counts);
 }

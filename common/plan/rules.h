@@ -35,13 +35,14 @@ enum class Rule {
   homogeneous,
   every_pixel,
   no_fog,
+  even_airlight,
   splatted,
   no_network,
   unhindered_network,
 };
 
 // Each rule with its name; in the order of the enumeration.
-constexpr std::array<std::pair<Rule, std::string_view>, 29> rule_names{{
+constexpr std::array<std::pair<Rule, std::string_view>, 30> rule_names{{
     {Rule::unchanged, "unchanged"},                        // a step whose inputs are those of a frame before
     {Rule::dark_lights, "dark-lights"},                    // lights without power
     {Rule::lamps_out_of_reach, "lamps-out-of-reach"},      // lamps whose light fog swallows before the camera
@@ -68,6 +69,7 @@ constexpr std::array<std::pair<Rule, std::string_view>, 29> rule_names{{
     {Rule::homogeneous, "homogeneous"},                    // marching toward lights through fog alone
     {Rule::every_pixel, "every-pixel"},                    // low-resolution airlight where it gains nothing
     {Rule::no_fog, "no-fog"},                              // marching of fog beside splats
+    {Rule::even_airlight, "even-airlight"},                // rays through fog that have what others of their length have
     {Rule::splatted, "splatted"},                          // the source function of particles that are seen themselves
     {Rule::no_network, "no-network"},                      // particles that stand for nothing
     {Rule::unhindered_network, "unhindered-network"},      // surfaces between particles: an approximation, not a gain

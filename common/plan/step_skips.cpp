@@ -15,6 +15,7 @@ struct InWords {
   StepSkips operator()(const ShadowPlanes&) const {
     return {"no plane is in their tile", "rays of lights", "none of the light's planes is in their tile"};
   }
+  StepSkips operator()(const HomogeneousAirlight&) const { return {"others have the same", {}, {}}; }
   StepSkips operator()(const SurfaceAirlight&) const { return {none_through_fog, {}, {}}; }
   StepSkips operator()(const SurfaceShading&) const { return {none_through_fog, {}, {}}; }
   StepSkips operator()(const MeanDepth&) const { return {no_surface, {}, {}}; }
@@ -26,10 +27,10 @@ struct InWords {
   StepSkips operator()(const VisibilityNetwork&) const { return {{}, "lists of particles", "empty"}; }
   StepSkips operator()(const SourceFunction&) const { return {{}, "bricks of nodes", "nothing scatters there"}; }
   StepSkips operator()(const RayMarch&) const {
-    return {"they meet no medium, or are known", "steps along rays", "nothing is seen so far away"};
+    return {"they meet no medium, or are known from others", "steps along rays", "nothing is seen so far away"};
   }
   StepSkips operator()(const GaussianAirlight&) const {
-    return {"their squares meet no Gaussian, or they are known", "panels along rays",
+    return {"their squares meet no Gaussian, or they are known from others", "panels along rays",
             "behind surfaces, or nothing is seen so far away"};
   }
   StepSkips operator()(const ProjectedGaussians&) const { return {no_gaussian, {}, {}}; }

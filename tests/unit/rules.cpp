@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/plan/image_names.h"
 #include "tests/unit/small_work.h"
 
 namespace airlight {
@@ -160,6 +161,59 @@ TEST_P(RuleOf, FogAlone) {
   network.scene = work.scene;
   EXPECT_TRUE(holds(network, Rule::no_network));
   same_image(Rule::no_network, network, work, 0);
+}
+
+// Beside frames that ask what each light scatters, for which every ray is computed; shadows fall on some tiles, or on none.
+TEST(EvenAirlight, HasTheBitsOfEachRay) {
+  Renderer renderer({.backend = "cpu", .threads = 2});
+  for (const char* technique : {"shadow-planes", "marching"}) {
+    for (const char* shadows : {"on", "off"}) {
+      for (const bool sun : {true, false}) {
+        Work work = small_work(technique);
+        work.settings.resolution = Extent{200, 150};
+        work.set("shadows", shadows);
+        work.scene.medium.gaussians.clear();
+        work.scene.medium.ambient = {0.1, 0.2, 0.3};
+        work.scene.medium.emission = {0.01, 0.02, 0.03};
+        work.scene.lights.erase(work.scene.lights.begin());
+        if (!sun) work.scene.medium.phase = {PhaseKind::henyey_greenstein, 0.6}, work.scene.lights.clear();
+        Work each = work;
+        const bool computed = technique == std::string("shadow-planes") && sun && shadows == std::string("on");
+        const std::vector<std::string> names = image_names(each.scene);
+        const auto of_light = std::find_if(names.begin(), names.end(), [](const auto& n) { return n.starts_with("airlight."); });
+        if (of_light != names.end()) each.settings.images.push_back(*of_light);
+        const auto skipped = [&](const Frame& frame) {
+          std::uint64_t sum = 0;
+          for (const StepStats& s : frame.stats.steps)
+            sum += s.name == "ray_march" || s.name == "homogeneous_airlight" ? s.skipped : 0;
+          return sum;
+        };
+        const auto told = [](const Work& w) { return explain(w.scene, w.settings).find("(even-airlight)") != std::string::npos; };
+        const Frame once = renderer.render(work.scene, work.settings);
+        Renderer cold({.backend = "cpu", .threads = 2});
+        const Frame all = cold.render(each.scene, each.settings);
+        std::printf("%s, shadows %s, %s: %llu of 30000 pixels known, else %llu\n", technique, shadows, sun ? "a sun" : "no light",
+                    static_cast<unsigned long long>(skipped(once)), static_cast<unsigned long long>(skipped(all)));
+        EXPECT_EQ(once.image("beauty").values, all.image("beauty").values) << technique;
+        EXPECT_EQ(told(work), !computed) << technique;
+        EXPECT_EQ(skipped(once) > 1000, !computed) << technique;
+        if (!sun) continue;
+        EXPECT_FALSE(told(each)) << technique;
+        EXPECT_EQ(skipped(all), 0U) << technique;
+      }
+    }
+  }
+}
+
+// A Gaussian beside the rays shades the fog on them.
+TEST(EvenAirlight, IsNotThereWhereGaussiansShadeFog) {
+  Work work = small_work("marching");
+  work.scene.lights.erase(work.scene.lights.begin());
+  EXPECT_EQ(explain(work.scene, work.settings).find("(even-airlight)"), std::string::npos);
+  work.scene.medium.gaussians.clear();
+  EXPECT_NE(explain(work.scene, work.settings).find("(even-airlight)"), std::string::npos);
+  work.scene.medium.phase = {PhaseKind::henyey_greenstein, 1e-6};
+  EXPECT_EQ(explain(work.scene, work.settings).find("(even-airlight)"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, RuleOf, testing::Values("cpu", "gl"), [](const auto& p) { return p.param; });
