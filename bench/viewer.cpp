@@ -1,8 +1,9 @@
 // What the viewer takes for a picture while its user drags something, until the window shows it: the table of docs/viewer.md.
-//   airlight-viewer SCENE...
-// By the CPU, by OpenGL whose pictures are read back, by that of the window, a picture of each in turn. CPU time of the process
-// over two threads, the least of five pictures [ms], so that other work counts little; and wall time, which is the same where
-// nothing else runs.
+//   airlight-viewer [--gl] SCENE...
+// By the CPU; with --gl also by OpenGL whose pictures are read back and by that of the window, a picture of each in turn. CPU
+// time of the process over two threads, the least of five pictures [ms], so that other work counts little; and wall time, which
+// is the same where nothing else runs. Last, the least wall time but for the steps: planning, reading back, uploading, drawing
+// the window.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,8 +45,11 @@ class Way {
 
   const std::string& name() const { return name_; }
 
-  // An error, or nothing.
-  std::string show(const Scene& scene) {
+  struct Shown {
+    std::string error;
+    double steps = 0;  // [s] of wall time
+  };
+  Shown show(const Scene& scene) {
     ViewJob job;
     job.number = ++number_;
     job.scene = scene;
@@ -57,7 +61,7 @@ class Way {
       ready_ = false;
     }
     const ViewPicture p = *worker_.take();
-    if (!p.error.empty()) return p.error;
+    if (!p.error.empty()) return {p.error};
     if (p.texture) {
       window_.painter().set(0, p.texture);
     } else {
@@ -66,7 +70,7 @@ class Way {
     window_.begin_frame();
     window_.draw_picture(0, {{0, 0}, {extent.width, extent.height}}, 0);
     window_.end_frame(false);
-    return {};
+    return {{}, p.stats.seconds};
   }
 
  private:
@@ -88,8 +92,8 @@ class Way {
 };
 
 struct Times {
-  double cpu = 0, wall = 0;
-  std::string refused;
+  double cpu = 0, wall = 0, rest = 0;
+  bool refused = false;
 };
 
 // Of each way, which take turns; nothing where the scene takes no such edit.
@@ -105,10 +109,12 @@ std::vector<Times> measured(ViewSession& session, std::deque<Way>& ways, const s
       Times& t = least[k];
       const double began = cpu_seconds();
       const auto clock = std::chrono::steady_clock::now();
-      t.refused = ways[k].show(session.scene());
+      const Way::Shown shown = ways[k].show(session.scene());
+      t.refused = !shown.error.empty();
       const double cpu = (cpu_seconds() - began) / threads;
       const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-      t.cpu = i == 0 ? cpu : std::min(t.cpu, cpu), t.wall = i == 0 ? wall : std::min(t.wall, wall);
+      const Times now{cpu, wall, wall - shown.steps, t.refused};
+      t = i == 0 ? now : Times{std::min(t.cpu, cpu), std::min(t.wall, wall), std::min(t.rest, now.rest), t.refused};
     }
   }
   return least;
@@ -137,16 +143,18 @@ void measure(const std::string& path, std::deque<Way>& ways) {
   }));
   for (std::size_t k = 0; k < ways.size(); ++k) {
     fmt::print("| {}, {} |", std::filesystem::path(path).stem().string(), ways[k].name());
+    double rest = 1e30;
     for (const std::vector<Times>& t : edits) {
+      if (!t.empty() && !t[k].refused) rest = std::min(rest, t[k].rest);
       if (t.empty()) {
         fmt::print(" - |");
-      } else if (!t[k].refused.empty()) {
+      } else if (t[k].refused) {
         fmt::print(" refused |");
       } else {
         fmt::print(" {:.1f} ({:.1f}) |", 1e3 * t[k].cpu, 1e3 * t[k].wall);
       }
     }
-    fmt::print("\n");
+    fmt::print(" {:.1f} |\n", 1e3 * rest);
   }
   std::fflush(stdout);
 }
@@ -166,7 +174,7 @@ int main(int argc, char** argv) {
       ways.emplace_back("OpenGL, read back", window, RendererOptions{.backend = "gl"});
       ways.emplace_back("OpenGL, drawn directly", window, RendererOptions{.backend = "gl", .gl_host = window.render_context()});
     }
-    fmt::print("| scene | camera moves | a light moves | a Gaussian is painted |\n|---|---|---|---|\n");
+    fmt::print("| scene | camera moves | a light moves | a Gaussian is painted | all but the steps |\n|---|---|---|---|---|\n");
     for (int i = gl ? 2 : 1; i < argc; ++i) measure(argv[i], ways);
     return 0;
   } catch (const std::exception& e) {
