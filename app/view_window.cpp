@@ -58,19 +58,19 @@ struct ViewWindow::State {
 
   void keep();  // what is drawn, before it is shown
 
+  glm::dvec2 place{0, 0};  // of the mouse as of the last event; GLFW would tell where it is by now
+
   static std::vector<ViewEvent>& of(GLFWwindow* w) { return static_cast<State*>(glfwGetWindowUserPointer(w))->events; }
-  static glm::dvec2 mouse(GLFWwindow* w) {
-    glm::dvec2 at;
-    glfwGetCursorPos(w, &at.x, &at.y);
-    return at;
-  }
+  static glm::dvec2& mouse(GLFWwindow* w) { return static_cast<State*>(glfwGetWindowUserPointer(w))->place; }
   static void on_key(GLFWwindow* w, int code, int, int action, int modifiers) {
     if (action != GLFW_REPEAT) of(w).push_back({ViewEvent::Kind::key, code, action == GLFW_PRESS, modifiers, mouse(w)});
   }
   static void on_button(GLFWwindow* w, int code, int action, int modifiers) {
     of(w).push_back({ViewEvent::Kind::button, code, action == GLFW_PRESS, modifiers, mouse(w)});
   }
-  static void on_move(GLFWwindow* w, double x, double y) { of(w).push_back({ViewEvent::Kind::move, 0, false, 0, {x, y}}); }
+  static void on_move(GLFWwindow* w, double x, double y) {
+    of(w).push_back({ViewEvent::Kind::move, 0, false, 0, mouse(w) = {x, y}});
+  }
   static void on_wheel(GLFWwindow* w, double x, double y) { of(w).push_back({ViewEvent::Kind::wheel, 0, false, 0, {x, y}}); }
 
   ~State() {
