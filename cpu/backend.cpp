@@ -13,6 +13,7 @@
 #include "common/plan/rows.h"
 #include "cpu/groups.h"
 #include "cpu/held_images.h"
+#include "cpu/image_rows.h"
 #include "cpu/kernels.h"
 #include "cpu/parallel.h"
 #include "cpu/particle_splats.h"
@@ -346,19 +347,7 @@ void CpuBackend::run(std::span<const Step> steps, Rows wanted, Stats& stats, Pro
 void CpuBackend::download(const Image& image, Rows wanted, std::span<float> rows) {
   const auto held = state_->images.find(image);
   if (held == state_->images.end() || held->second.key == 0) throw std::logic_error("image download: nothing is held");
-  const HeldImage& from = held->second;
-  if (image.layers > 1) return from.to_rows(wanted, rows);
-  // Rows of tiles by themselves: of one layer they lie behind each other.
-  const Rows all = within(wanted, image.extent.height);
-  const std::size_t floats_a_row = image.floats() / static_cast<std::size_t>(std::max(image.extent.height, 1));
-  if (rows.size() != floats_a_row * static_cast<std::size_t>(all.count()))
-    throw std::logic_error("image download: wrong number of floats");
-  state_->workers.each((all.end + tile_side - 1) / tile_side - all.first / tile_side, [&](int i, int) {
-    const int top = (all.first / tile_side + i) * tile_side;
-    const Rows some{std::max(top, all.first), std::min(top + tile_side, all.end)};
-    from.to_rows(some, rows.subspan(floats_a_row * static_cast<std::size_t>(some.first - all.first),
-                                    floats_a_row * static_cast<std::size_t>(some.count())));
-  });
+  take_rows(held->second, wanted, rows, state_->workers);
 }
 
 void CpuBackend::download(const Buffer& buffer, std::span<std::byte> bytes) {

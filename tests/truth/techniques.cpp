@@ -94,8 +94,8 @@ INSTANTIATE_TEST_SUITE_P(Shadows, Techniques, testing::ValuesIn(shadow_scenes().
 
 class Marching : public testing::TestWithParam<TruthScene> {};
 
-// By default; and eight times the steps leave less than a third of the error: how it falls from one to the next depends on how
-// steps lie to lamps.
+// By default; and eight times the steps leave less than a third of the error, or as little as closed forms in single precision
+// do: how it falls from one to the next depends on how steps lie to lamps.
 TEST_P(Marching, ConvergesToTheTruth) {
   const Scene scene = GetParam().make();
   const ReferenceFrame truth = truth_of(scene, few_pixels);
@@ -121,7 +121,7 @@ TEST_P(Marching, ConvergesToTheTruth) {
     errors.push_back(relative_error(frame.image("beauty"), truth, parts[0]).off_edges);
     std::printf("cpu beauty, %s steps: relative RMSE %.5f %%\n", steps, 100 * errors.back());
   }
-  EXPECT_FALSE(!(errors.back() < errors.front() / 3));
+  EXPECT_FALSE(!(errors.back() < std::max(errors.front() / 3, tolerance("truth_off_edges"))));
 }
 
 std::vector<TruthScene> marching_scenes() {

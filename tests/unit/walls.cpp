@@ -31,7 +31,8 @@ const std::vector<Room>& rooms() {
       {"common/progress.h", {"common/error.h"}},
       {"common/half.h", {}},
       {"common/algorithms", {"common/half.h", "common/image.h"}},
-      {"common/backend.h", {"common/algorithms", "common/progress.h", "common/rows.h", "common/stats.h"}},
+      {"common/gl_host.h", {"common/image.h"}},
+      {"common/backend.h", {"common/algorithms", "common/gl_host.h", "common/progress.h", "common/rows.h", "common/stats.h"}},
       {"common/scene",
        {"common/algorithms", "common/error.h", "common/image.h", "common/progress.h", "common/rows.h", "common/spelling.h"}},
       {"common/plan",
@@ -53,8 +54,8 @@ const std::vector<Room>& rooms() {
        {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/half.h", "common/image.h",
         "common/plan", "common/progress.h", "common/rows.h", "common/stats.h"}},
       {"gpu",
-       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/half.h", "common/image.h",
-        "common/plan", "common/progress.h", "common/rows.h", "common/stats.h"}},
+       {"common/algorithms", "common/backend.h", "common/error.h", "common/formulas", "common/gl_host.h", "common/half.h",
+        "common/image.h", "common/plan", "common/progress.h", "common/rows.h", "common/stats.h"}},
       {"app", {"common", "cpu/backend.h", "cpu/parallel.h", "cpu/targets.h", "cpu/tile.h", "gpu/backend.h", "gpu/context.h"}},
   };
   return all;
