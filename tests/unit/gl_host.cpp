@@ -14,28 +14,16 @@
 
 #include "app/airlight.h"
 #include "gpu/functions.h"
+#include "tests/unit/lamp_in_fog.h"
 
 namespace airlight {
 namespace {
 
 Scene fog_before_a_triangle(double extinction) {
-  Scene scene;
-  scene.camera.position = {0, 0, 4};
-  scene.camera.look_at = {0, 0, 0};
+  Scene scene = lamp_in_fog(extinction);
   scene.camera.resolution = {101, 67};
-  scene.medium.extinction = extinction;
-  LightSource lamp;
-  lamp.position = {0.5, 0.5, 0};
-  lamp.power = {9, 5, 2};
-  scene.lights = {lamp, lamp};
+  scene.lights.push_back(scene.lights[0]);
   scene.lights[1].position.x = -1;
-  auto mesh = std::make_shared<Mesh>();
-  mesh->positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  mesh->normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-  mesh->triangles = {{0, 1, 2}};
-  Surface triangle;
-  triangle.mesh = mesh;
-  scene.surfaces = {triangle};
   return scene;
 }
 

@@ -9,30 +9,11 @@
 
 #include "app/airlight.h"
 #include "gpu/context.h"
+#include "tests/unit/lamp_in_fog.h"
 
 namespace airlight {
 
 namespace {
-
-Scene lamp_in_fog(double extinction) {
-  Scene scene;
-  scene.camera.position = {0, 0, 4};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.resolution = {96, 72};
-  scene.medium.extinction = extinction;
-  LightSource lamp;
-  lamp.position = {0.5, 0.5, 0};
-  lamp.power = {9, 5, 2};
-  scene.lights = {lamp};
-  auto mesh = std::make_shared<Mesh>();
-  mesh->positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  mesh->normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-  mesh->triangles = {{0, 1, 2}};
-  Surface triangle;
-  triangle.mesh = mesh;
-  scene.surfaces = {triangle};
-  return scene;
-}
 
 std::vector<float> beauty(Renderer& renderer, const Scene& scene) { return renderer.render(scene, {}).image("beauty").values; }
 
